@@ -21,10 +21,7 @@ from ..scenes.parse import is_json, text_of
 from ..scenes.places import places_in
 from ..scenes.scene import EXCLUSIVE, Scene, System, load_scene, read
 from ..scenes.tables import Table, fields_of
-from ..systems.cord import Cord
 from ..systems.extras import require
-from ..systems.held import Held
-from ..systems.rig import Rig
 from .exit_codes import ExitCode
 from .frame import STDOUT, Stop, app, epilog, guarded, outputs_of
 from .progress import watched
@@ -260,8 +257,8 @@ _NAMES = {
 
 def without_answer(question: str, system: System, path: Path) -> str:
     """The reason why a question has no answer for a system, and the question to ask instead; empty if it has one."""
-    kind = {Rig: "rig", Cord: "cord", Held: "held"}.get(type(system), "")
-    if isinstance(system, Held) and system.span is not None:
+    kind = system._kind.partition(" ")[0]
+    if system._is_held and getattr(system, "span", None) is not None:
         kind = "bent"
     instead = _NO_ANSWER[question].get(kind, "").format(path=path)
     return f"{question}: no answer for {_NAMES[kind]}; {instead}" if instead else ""

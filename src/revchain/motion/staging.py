@@ -20,11 +20,7 @@ from ..results.modes import Modes
 from ..results.motions import Response, Swing
 from ..results.shapes import Shape, SteadyShapes
 from ..results.sheet import digits
-from ..systems.chain import Chain
-from ..systems.cord import Cord
-from ..systems.held import Held
 from ..systems.numbers import Floats, listed, place_of
-from ..systems.rig import Rig
 from .film import Bodies, Chart, Complex, Figure, Film
 
 TURN = 2 * math.pi
@@ -183,7 +179,7 @@ def _of_branches(branches: Sequence[Any], of: Any, labels: list[str], asked: Ask
         kept = _stages(len(branch), branch.folds)
         rows = [_bent(shape) if (shape := _shape_or_none(branch, k)) is not None else None for k in kept.tolist()]
         straight = Straight(branch.system).height if None in rows else np.empty(0)
-        if None in rows and isinstance(branch.system, Cord):
+        if None in rows and branch.system._is_cord:
             straight = np.linspace(straight[0], straight[-1], PLACES)
         rows = [(np.zeros_like(straight), straight) if row is None else row for row in rows]
         offset, height = (np.array(part) for part in zip(*rows, strict=True))
@@ -346,39 +342,38 @@ def _film(
     progress: Sequence[str] = (),
 ) -> Film:
     system = result.system
-    base = Straight(system).base
-    few = isinstance(base, Chain) and base.size <= MOST_PINS_AS_DOTS
-    links = figures[0].offset.shape[1] - 1
+    base = system._base
+    few = not system._is_cord and base.size <= MOST_PINS_AS_DOTS
     names: tuple[str, ...] = ()
-    if isinstance(base, Chain):
+    if not system._is_cord:
         names = tuple(f"links[{k}]" for k in range(base.size))
         if base.names is not None:
             names = tuple(f"{number} {name}" for number, name in zip(names, base.names, strict=True))
-    gravity = 0.0 if isinstance(system, Held) and system.weightless else float(result.gravity)
+    gravity = 0.0 if system._is_held and system.weightless else float(result.gravity)
     return Film(
         system=repr(system),
         gravity=gravity,
         figures=tuple(figures),
-        bodies=_bodies(system, base) if few or isinstance(base, Cord) else Bodies(),
+        bodies=_bodies(system, base) if few or system._is_cord else Bodies(),
         frames_per_second=asked.frames_per_second,
         time_scale=time_scale,
         names=names,
-        stout=system.inverted if isinstance(system, Rig) else np.zeros(links, bool),
+        stout=np.broadcast_to(system._stands, figures[0].offset.shape[1] - 1),
         shows_pins=few,
-        is_held=isinstance(system, Held),
+        is_held=system._is_held,
         chart=chart,
         progress=tuple(progress),
     )
 
 
 def _bodies(system: Any, base: Any) -> Bodies:
-    if isinstance(base, Cord):
+    if system._is_cord:
         if not base._compiled.tip_weight:
             return Bodies()
         one = np.ones(1)
         return Bodies(np.zeros(1, int), one, one, np.zeros(1), np.zeros(1), np.zeros(1, bool))
     weight = np.broadcast_to(base._compiled.weight, base.size)
-    momentum = system._momentum(1.0) if isinstance(system, Rig) else np.zeros(base.size)
+    momentum = system._momentum(1.0)
     link = np.flatnonzero((weight > 0) | (momentum != 0))
     rod = math.sqrt(3) * base.radius_of_gyration / base.length
     arrays = {

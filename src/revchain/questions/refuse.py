@@ -6,7 +6,6 @@ from __future__ import annotations
 from typing import Any
 
 from ..systems.numbers import shown
-from ..systems.system import System
 
 
 def no_system(place: str, system: Any) -> TypeError:

@@ -10,15 +10,13 @@ from numpy.typing import ArrayLike
 
 from .. import _core
 from ..results.motions import Response
-from ..systems.chain import Chain, checked, compiled
+from ..systems.chain import Chain
 from ..systems.numbers import (
     STANDARD_GRAVITY,
-    Floats,
     Whole,
     array_of,
     floats,
     integer,
-    limit,
     positive,
     real,
     refuse_where,
@@ -99,10 +97,11 @@ def response(
     (0.1786, 0)
     """
     place = "revchain.response"
-    either_sense, own = False, 1.0
+    own = 1.0
     refuse_other(place, system, ("chain", "rig"), {"cord": "use its chain: cord.chain(100)", "held": "use steady_shapes"})
-    if isinstance(system, Rig):
-        either_sense, own = system.has_momentum, system.support.radius or 1.0
+    either_sense = system.has_momentum
+    if system._support is not None:
+        own = system._support.radius or 1.0
     if (conical_height is None) == (angular_speed is None):
         raise ValueError(f"{place}: give either conical_height or angular_speed")
     g = float(positive(place, "gravity", real(place, "gravity", gravity)))
@@ -123,10 +122,8 @@ def response(
         height, speed = np.asarray(_core.conical_pendulum_height(np.abs(given), np.full(given.shape, g))), given
     which, axis = _pins(place, pins, system.size)
     asked = (given.reshape(-1), angular_speed is not None, radius, which.reshape(-1), g, integer(place, "threads", threads))
-    if isinstance(system, Rig):
-        found = _core.rig_response(system._under(g), *asked)
-    else:
-        found = _core.response(compiled(place, system), *asked)
+    respond: Any = _core.rig_response if system._kind == "rig" else _core.response
+    found = respond(system._under(g), *asked)
     offset, bound, below, against, resonant, force, force_error = found
     shape = given.shape
     return Response._made(

@@ -15,8 +15,6 @@ from numpy.typing import NDArray
 from ..scenes.ask import DEFAULT_MODES, AskModes, Spread
 from ..scenes.chain import Numbers
 from ..scenes.scene import Scene
-from ..systems.chain import Chain
-from ..systems.rig import Rig
 from .axes import Axis, with_value
 from .batch import Links
 
@@ -205,7 +203,7 @@ def blocks_of(scene: Scene, largest: Scene, find: tuple[str, ...], max_shapes: i
     if "modes" in find:
         labels = _modes_of(scene, largest)
         names = list(_SPEED[: (4 if scene.is_rigged else 3) if bounds else 2])
-        turns = ["forward_", "backward_"] if isinstance(system, Rig) and system.has_momentum else ["forward_"]
+        turns = ["forward_", "backward_"] if system.has_momentum else ["forward_"]
         for turn in turns if scene.is_rigged else [""]:
             blocks += [Block(turn + name, "f8", "mode", labels) for name in names]
         if scene.is_rigged:
@@ -227,10 +225,10 @@ def _modes_of(scene: Scene, largest: Scene) -> tuple[int, ...]:
     ask, system = scene.ask.modes, largest.system()
     ask = AskModes() if isinstance(ask, UnsetType) else ask
     first = 1 if isinstance(ask.first, UnsetType) else ask.first
-    if isinstance(system, Rig):
+    if system._kind == "rig":
         there = 2 * (system.size + 1)  # in each direction
     else:
-        there = system.size if isinstance(system, Chain) else getattr(system, "mode_count", None) or DEFAULT_MODES
+        there = system.size if system._kind == "chain" else system.mode_count or DEFAULT_MODES
     there = max(there - first + 1, 1)
     count = ask.count if isinstance(ask.count, int) else there if ask.count == "all" else min(DEFAULT_MODES, there)
     return tuple(range(first, first + count))

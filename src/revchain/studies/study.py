@@ -16,9 +16,7 @@ from ..scenes.error import Problem, SceneError
 from ..scenes.places import joined
 from ..scenes.scene import Scene, json_schema, load_scene
 from ..scenes.tables import Table, says
-from ..systems.cord import Cord
 from ..systems.numbers import file_path, integer, text
-from ..systems.rig import Rig
 from .axes import LAWS, MAX_POINTS, Axis, Samples, Vary, axis_of, with_value
 from .axes import Path as Steps
 from .batch import links_of
@@ -325,8 +323,8 @@ def _check(base: dict[str, Any], axis: Axis, numbers: Numbers) -> None:
 def _kind(scene: Scene) -> str:
     """The kind of the system, which decides the form of the results."""
     system = scene.system()
-    if isinstance(system, Rig):
-        return "a rig with flywheels that spin" if system.has_momentum else "a rig"
+    if system.has_momentum:
+        return "a rig with flywheels that spin"
     return "a chain held at both ends" if scene.is_held else f"a {type(system).__name__.lower()}"
 
 
@@ -340,5 +338,4 @@ def _largest(base: dict[str, Any], axes: tuple[Axis, ...], source: str) -> Scene
 
 
 def _links(scene: Scene) -> int:
-    system = scene.system()
-    return 0 if isinstance(system, Cord) else system.size
+    return int(scene.system().size)

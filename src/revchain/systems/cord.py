@@ -196,8 +196,16 @@ class Cord(System):
         return f"Cord of length {self.length:.6g}, {heavy}{', ' + spread if self._function != 0.0 else ''}{tip}"
 
     _kind = "cord"
-    mode_count = None  # infinitely many
-    size = 0  # links
+
+    @property
+    def size(self) -> int:
+        """0: a cord has no links."""
+        return 0
+
+    @property
+    def mode_count(self) -> None:
+        """None: a cord has infinitely many modes."""
+        return None
 
     def _modes_again(self, modes: Any) -> _core.CordModes:
         return _core.cord_modes(self._compiled, int(modes.number[0]), len(modes), None, None, modes.rtol)

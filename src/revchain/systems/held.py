@@ -181,6 +181,10 @@ class Held(System):
         return f"held {self.system._kind}"
 
     @property
+    def _base(self) -> Chain | Cord:
+        return self.system
+
+    @property
     def _fixes_gravity(self) -> str | None:
         return "a system held by a tension in newtons" if self.by_mass or self.weightless else None
 

@@ -474,6 +474,22 @@ class Rig(System):
     _fixes_gravity = "a rig"
 
     @property
+    def _base(self) -> Chain:
+        return self.chain
+
+    @property
+    def _stands(self) -> NDArray[np.bool_]:
+        return self.inverted
+
+    @property
+    def _support(self) -> Support:
+        return self.support
+
+    @property
+    def _fluid(self) -> str | None:
+        return self.fluid if self._floats else None
+
+    @property
     def mode_count(self) -> None:
         """None: how many modes a rig has is known only when they are found."""
         return None
