@@ -97,7 +97,7 @@ KINDS = [chain, whole, rig, cord, held, held_straight, held_cord]
 def of_modes(scene):
     m = scene.modes()
     names = ("angular_speed", "conical_height", "error_bound")
-    if not isinstance(m, rc.RigModes):
+    if m.system._kind != "rig":
         return {name: getattr(m, name) for name in names}, m.status == "success"
     found = {"other_modes": m.other_available, "modes_complete": m.complete}
     for turn, which in (("forward", m.direction > 0), ("backward", m.direction < 0)):

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from .. import _core
 from ..results.motions import Response
-from ..systems.chain import Chain
+from ..systems.chain import Chain, compiled
 from ..systems.numbers import (
     STANDARD_GRAVITY,
     Whole,
@@ -123,7 +123,8 @@ def response(
     which, axis = _pins(place, pins, system.size)
     asked = (given.reshape(-1), angular_speed is not None, radius, which.reshape(-1), g, integer(place, "threads", threads))
     respond: Any = _core.rig_response if system._kind == "rig" else _core.response
-    found = respond(system._under(g), *asked)
+    core: Any = compiled(place, system) if system._kind == "chain" else system._under(g)
+    found = respond(core, *asked)
     offset, bound, below, against, resonant, force, force_error = found
     shape = given.shape
     return Response._made(
