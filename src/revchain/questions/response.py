@@ -123,7 +123,8 @@ def response(
     which, axis = _pins(place, pins, system.size)
     asked = (given.reshape(-1), angular_speed is not None, radius, which.reshape(-1), g, integer(place, "threads", threads))
     respond: Any = _core.rig_response if system._kind == "rig" else _core.response
-    core: Any = compiled(place, system) if system._kind == "chain" else system._under(g)
+    of: Any = system
+    core: Any = compiled(place, of) if system._kind == "chain" else system._under(g)
     found = respond(core, *asked)
     offset, bound, below, against, resonant, force, force_error = found
     shape = given.shape
