@@ -67,7 +67,7 @@ def test_places_of_cords():
         found = ALL[kind]()
         shape = found[0] if kind == "shapes of a rope" else found
         figure = film(found).figures[0]
-        at = shape.at(np.linspace(0, 1, 101))
+        at = shape.along(np.linspace(0, 1, 101))
         assert np.array_equal(figure.offset[0], at.offset) and np.array_equal(figure.height[0], at.height)
 
 

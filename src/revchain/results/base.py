@@ -32,15 +32,16 @@ class Field(Generic[Value]):
 
     Attributes
     ----------
-    heading : str
-        Heading of the column, to which the unit is added.
+    heading : str or callable
+        Heading of the column, to which the unit is added; or a function of the result that returns it, empty if the column
+        is not printed.
     unit : str
         Unit of the numbers. Angles (``"rad"``) are printed in degrees. ``"force"`` is N for a system given by mass, else
         the unit of its weights, which is unknown.
     digits : int
         Number of significant digits in printed tables.
     axes : tuple of str, optional
-        Names of the axes after the first, which counts the rows.
+        Names of the axes after the first, which counts the rows; or a function of the result that returns them.
     shown : callable, optional
         Function of the result that returns what is printed instead, such as words.
     column : str, optional
@@ -53,10 +54,10 @@ class Field(Generic[Value]):
         compute: Callable[[Any], Any] | None = None,
         *,
         part: bool | None = None,
-        heading: str | None = None,
+        heading: str | Callable[[Any], str] | None = None,
         unit: str = "",
         digits: int = 6,
-        axes: tuple[str, ...] | None = None,
+        axes: tuple[str, ...] | Callable[[Any], tuple[str, ...]] | None = None,
         shown: Callable[[Any], Any] | None = None,
         fact: bool = False,
         column: str | None = None,
@@ -79,20 +80,27 @@ class Field(Generic[Value]):
         # Not called where the dictionary of the result has the name: a descriptor without __set__ comes after it.
         if result is None:
             return self
-        found = frozen(self.compute(result) if self.compute else getattr(result._found(), self.name))
+        try:
+            found = frozen(self.compute(result) if self.compute else getattr(result._found(), self.name))
+        except UnavailableError:
+            raise
+        except AttributeError as error:  # the compiled result of this kind of system has no such number
+            raise UnavailableError(_not_there(result, self.name)) from error
         return result.__dict__.setdefault(self.name, found)  # two threads that compute it at once get one object
 
     def column(self, result: Any) -> Column:
         """The column of a result."""
         values = getattr(result, self.name)
-        heading, unit, shown = self.heading or "", self.unit, None if self.shown is None else self.shown(result)
+        heading = self.heading(result) if callable(self.heading) else self.heading or ""
+        unit, shown = self.unit, None if self.shown is None else self.shown(result)
         if unit == "force":
             unit = "N" if result.system.by_mass else ""
         if heading and unit == "rad":
             heading, shown = f"{heading} (°)", np.degrees(values) if shown is None else shown
         elif heading and unit:
             heading = f"{heading} ({unit})"
-        return Column(self.key or self.name, values, heading, self.digits, self.axes or (), shown, unit=unit)
+        axes = self.axes(result) if callable(self.axes) else self.axes or ()
+        return Column(self.key or self.name, values, heading, self.digits, axes, shown, unit=unit)
 
 
 class UnavailableError(AttributeError, ValueError):
@@ -170,7 +178,7 @@ class Result(Unchangeable):
             if field.axes is not None and (field.heading or not brief):
                 if getattr(self, name, None) is not None:
                     columns.append(field.column(self))
-            elif field.fact and not brief:
+            elif field.fact and not brief and hasattr(self, name):
                 facts[name] = getattr(self, name)
         words = _Words(self)
         notes = [text for note in self._notes if (text := note.format_map(words))]
@@ -179,7 +187,7 @@ class Result(Unchangeable):
 
     def _state(self) -> dict[str, Any]:
         """All parts, and the other fields computed so far."""
-        parts = {name: getattr(self, name) for name, field in self._fields.items() if field.part}
+        parts = {name: getattr(self, name) for name, field in self._fields.items() if field.part and hasattr(self, name)}
         return parts | {name: value for name, value in dict(self.__dict__).items() if name in self._fields}
 
     def to_dict(self) -> dict[str, Any]:
@@ -279,7 +287,9 @@ class Result(Unchangeable):
         if type(other) is not type(self):
             return NotImplemented
         return all(
-            same(getattr(self, name), getattr(other, name)) for name, field in self._fields.items() if field.part
+            same(getattr(self, name, None), getattr(other, name, None))
+            for name, field in self._fields.items()
+            if field.part
         )
 
     __hash__ = None  # type: ignore[assignment]
@@ -351,6 +361,12 @@ class _Words:
 
     def __getitem__(self, name: str) -> Any:
         return getattr(self.result, name)
+
+
+def _not_there(result: Any, name: str) -> str:
+    """The sentence about a field that a result of this kind of system does not have."""
+    system = type(result.system).__name__ if "system" in result.__dict__ else "result of this kind"
+    return f"revchain.{type(result).__name__}.{name}: a {system} does not have it"
 
 
 _HOLD = (np.ndarray, list, tuple)  # types that may hold writable arrays

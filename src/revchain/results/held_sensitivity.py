@@ -26,7 +26,7 @@ from .shape_sensitivity import (
 )
 
 if TYPE_CHECKING:
-    from .bent import HeldShape
+    from .shapes import SteadyShape
 
 OF_ENDS = tuple(f"{end}_{name}" for end in ("lower", "upper") for name in ("radius", "stiffness", "mass"))
 
@@ -75,7 +75,7 @@ class _HeldChain:
     The unknowns are the inclinations, the offset y of the upper end, X and Z.
     """
 
-    def __init__(self, shape: HeldShape) -> None:
+    def __init__(self, shape: SteadyShape) -> None:
         held = shape.system
         chain = held.system
         n = chain.size
@@ -161,11 +161,11 @@ class _HeldChain:
         return loads
 
 
-def held_shape_sensitivity(shape: HeldShape) -> ShapeSensitivity:
-    """See `HeldShape.sensitivity`."""
+def held_shape_sensitivity(shape: SteadyShape) -> ShapeSensitivity:
+    """See `SteadyShape.sensitivity`."""
     chain = _HeldChain(shape)
     at, n = chain.hanging, chain.hanging.size
-    refuse_beyond_memory("revchain.HeldShape.sensitivity", "the number of links", n, 120 * n)
+    refuse_beyond_memory("revchain.SteadyShape.sensitivity", "the number of links", n, 120 * n)
     changes = chain.changes()
     moved = solved(chain.slope(), chain.loads(changes))
 
@@ -192,7 +192,7 @@ def held_shape_sensitivity(shape: HeldShape) -> ShapeSensitivity:
     return ShapeSensitivity._made(None, **{part: HeldShapeDerivatives._made(None, **found[part]) for part in PARTS})
 
 
-def _hold(shape: HeldShape, found: dict[str, dict[str, Floats]]) -> None:
+def _hold(shape: SteadyShape, found: dict[str, dict[str, Floats]]) -> None:
     """Make the derivatives those at constant tension if the tension was given; mark the other datum of the ends NaN."""
     if shape.system.tension is None:
         for by in found.values():

@@ -470,6 +470,9 @@ class Rig(System):
         """Whether a wheel has constant angular momentum, so that the two directions of rotation differ."""
         return self.flywheels is not None and bool(self._momentum(STANDARD_GRAVITY).any())
 
+    def _momentum_of_wheels(self, gravity: float, inclination: Any) -> float:
+        return self._force(gravity) * float(np.sum(self._momentum(gravity) * np.cos(inclination)))
+
     def _under(self, gravity: float) -> _core.Rig:
         at = self._at  # of two threads each sees one pair
         if at[0] == gravity or not self._needs_gravity():
