@@ -350,7 +350,7 @@ def test_hasattr_of_every_attribute():
         things += [found, found[0], rc.branches(system, max_angular_speed=12.0)]
     things += [rc.tune(POINTS, angular_speed=3.0), rc.explain(POINTS), rc.swing(POINTS, [0.1, 0.05, 0.0], None, [0.0, 1.0])]
     missing = {f"{type(thing).__name__}.{name}" for thing in things for name in dir(thing) if not hasattr(thing, name)}
-    assert {"SteadyShape.sensitivity", "SteadyShape.arc_length", "Branch.tip_radius", "Branches.complete", "Modes.sensitivity", "Chain.weight"} <= missing
+    assert {"SteadyShape.sensitivity", "SteadyShape.arc_length", "Branches.complete", "Modes.sensitivity", "Chain.weight"} <= missing
     with pytest.raises(ValueError, match="cut the cord into links"):  # which it was and stays, too
         things[things.index(found[0])].sensitivity  # noqa: B018
 

@@ -120,8 +120,8 @@ def branches(
     ----------
     system : Chain, Rig, Cord or Held
         A chain or a rig of few links, because all shapes are listed (`steady_shapes`), for a rig those in its own
-        posture; a cord; or a chain or cord held at a span. For a held system only the branches that start with the nearly
-        straight chain are found.
+        posture; a cord; or a chain or cord held at a span. For a held system only the branches that start with the
+        nearly straight chain are found.
     max_angular_speed : float
         Largest speed, rad/s.
     min_conical_height : float
@@ -131,16 +131,18 @@ def branches(
     direction : {1, -1}, optional
         Direction of rotation; only a rig with flywheels depends on it.
     budget : int, optional
-        Largest number of links to visit for the list of all shapes at each of 16 speeds, see `steady_shapes`, and a third of it for
-        the proof that no branch is missing, at 0.1 to 1 microsecond each. Not used for cords and held systems.
+        Largest number of links to visit for the list of all shapes at each of 16 speeds, see `steady_shapes`, and a
+        third of it for the proof that no branch is missing, at 0.1 to 1 microsecond each. Not used for cords and held
+        systems.
 
     Returns
     -------
     Branches
-        A sequence of branches. First come those that leave the vertical, slowest first (with the support off the axis the
-        one from rest), then the isolated ones, which start at a fold, slowest first. Those of a held system are ordered by
-        half waves. For a cord ``complete`` is true if a theorem counts the shapes (see `steady_shapes`) and every branch
-        was followed to its end. Those of held systems have no ``complete``; `steady_shapes` can prove a list at one speed.
+        A sequence of branches. First come those that leave the vertical, slowest first (with the support off the axis
+        the one from rest), then the isolated ones, which start at a fold, slowest first. Those of a held system are
+        ordered by half waves. For a cord ``complete`` is true if a theorem counts the shapes (see `steady_shapes`) and
+        every branch was followed to its end. Those of held systems have no ``complete``; `steady_shapes` can prove a
+        list at one speed.
 
     Raises
     ------
@@ -154,15 +156,16 @@ def branches(
     A listed shape that matches no branch lies on an isolated branch, which is then followed in both directions.
     ``consistent`` is true if every list is proved complete and each of its shapes matches exactly one branch.
 
-    Loops can open and close between two of the speeds. Interval arithmetic therefore splits the plane of conical height
-    and tangent of the lowest link until each part has no fold, or has all its shapes on one curve through a known branch.
-    Loops found in this way are followed. ``complete`` is true if this succeeds for every part; it is false if links could
-    hang at several inclinations. The proof relies on `branch`, whose steps are checked, not proved.
+    Loops can open and close between two of the speeds. Interval arithmetic therefore splits the plane of conical
+    height and tangent of the lowest link until each part has no fold, or has all its shapes on one curve through a
+    known branch. Loops found in this way are followed. ``complete`` is true if this succeeds for every part; it is
+    false if links could hang at several inclinations. The proof relies on `branch`, whose steps are checked, not
+    proved.
 
-    For rigs (on springs, on an arm, with flywheels, in fluids) the proof needs all links in tension at every speed up to
-    the given one. Below the first critical speed such a rig has exactly one shape if its support is off the axis, and only
-    the straight one if it is on the axis. If stiffness times conical height is less than the weight that moves, a spring
-    at the support cannot balance it, and nothing is proved; ``remark`` gives these heights.
+    For rigs (on springs, on an arm, with flywheels, in fluids) the proof needs all links in tension at every speed up
+    to the given one. Below the first critical speed such a rig has exactly one shape if its support is off the axis,
+    and only the straight one if it is on the axis. If stiffness times conical height is less than the weight that
+    moves, a spring at the support cannot balance it, and nothing is proved; ``remark`` gives these heights.
 
     Cost, measured down to a conical height of 1/200 of the length: three links 4 to 8 ms, five 15 ms, six 30 ms. Eight
     equal plummets on threads of length a, to 5 sqrt(g/a): 0.1 s; twenty rods, 1 m in all, to 20 rad/s: 0.05 s.

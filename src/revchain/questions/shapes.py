@@ -42,7 +42,7 @@ def steady_shapes(
     top_tension: float | None = None,
     min_conical_height: float | None = None,
 ) -> SteadyShapes:
-    """Return all steady shapes (relative equilibria) of a system at a given speed, or all of one branch with a property.
+    """Return all steady shapes (relative equilibria) of a system at a speed, or all of one branch with a property.
 
     Parameters
     ----------
@@ -56,8 +56,8 @@ def steady_shapes(
         Acceleration of gravity, m/s^2; standard gravity if left out. Not used for a weightless held system.
     budget : int, optional
         Largest number of links to visit while the range of inclinations of the lowest link is split. Chains and rigs:
-        3,000,000 if left out, at half a microsecond each (two if ``l < a``), about 2 to 10 seconds in all; with 0 or less
-        the list is empty and not complete. Held chains: 300,000 if left out, at 1 to 2 microseconds each; with 0
+        3,000,000 if left out, at half a microsecond each (two if ``l < a``), about 2 to 10 seconds in all; with 0 or
+        less the list is empty and not complete. Held chains: 300,000 if left out, at 1 to 2 microseconds each; with 0
         completeness is not proved. Cords for which no theorem counts the shapes: number of offsets of the free end to
         examine, 200 if left out.
     hanging_only : bool, optional
@@ -73,8 +73,8 @@ def steady_shapes(
         Number of threads for chains and rigs; 0 for all processors. Results are bitwise equal for any number. Threads
         share the refinement of the shapes, not the search, which is about half of the work.
     mode : int, optional
-        Chains, rigs and cords: search only the branch of this mode, see `steady_shape`. Then a property may be given instead
-        of the speed, and the shapes have different speeds.
+        Chains, rigs and cords: search only the branch of this mode, see `steady_shape`. Then a property may be given
+        instead of the speed, and the shapes have different speeds.
     lowest_inclination, tip_radius, top_tension, min_conical_height : float, optional
         With `mode`, as in `steady_shape`. `min_conical_height` is half the height of the speed if left out.
 
@@ -84,17 +84,17 @@ def steady_shapes(
         A sequence of shapes.
 
         Chains and rigs: every hanging shape (all links within a right angle of the downward vertical) or, if
-        `hanging_only` is false, every shape. Straight shapes are left out. Of two mirror images the one with the free end
-        at a positive offset is given (if that is 0, the one with a positive inclination of the lowest inclined link). If
-        the support is carried round there are no mirror images; outwards is positive. The order is by half waves, then by
-        inclination of the lowest link. ``complete`` is true if it is proved that none is missing among those asked for. Inclinations are within
-        the proved ``error_bound``, usually 2.2e-16. The list is empty and complete if the height exceeds that of the
-        first mode, in any posture.
+        `hanging_only` is false, every shape. Straight shapes are left out. Of two mirror images the one with the free
+        end at a positive offset is given (if that is 0, the one with a positive inclination of the lowest inclined
+        link). If the support is carried round there are no mirror images; outwards is positive. The order is by half
+        waves, then by inclination of the lowest link. ``complete`` is true if it is proved that none is missing among
+        those asked for. Inclinations are within the proved ``error_bound``, usually 2.2e-16. The list is empty and
+        complete if the height exceeds that of the first mode, in any posture.
 
         Cords: ordered by half waves. ``complete`` is true if a theorem counts the shapes: there is then one for each
         critical height above the given height. This holds for a uniform cord with or without a tip, and for a density
-        ``s**p`` without a tip, or with a tip if p is below 0. It also holds if at most one critical height lies above the
-        given one. Otherwise a shape that exists only between two scanned offsets is missed.
+        ``s**p`` without a tip, or with a tip if p is below 0. It also holds if at most one critical height lies above
+        the given one. Otherwise a shape that exists only between two scanned offsets is missed.
 
         Held systems: shapes of 1 to `max_half_waves` half waves, ordered by half waves. Among shapes with equally many,
         the one that is reached from the nearly straight chain without gravity, as the ends approach and gravity then
@@ -112,22 +112,21 @@ def steady_shapes(
     Raises
     ------
     ValueError
-        If not exactly one of `angular_speed` and `conical_height` is given, a number is not positive
-        and finite, `direction` is neither 1 nor -1, or a link of a rig has no effective tension (tension plus
-        speed times momentum divided by length) at the speed; if a property is given without `mode`, or `mode` for a held
-        system.
+        If not exactly one of `angular_speed` and `conical_height` is given, a number is not positive and finite,
+        `direction` is neither 1 nor -1, or a link of a rig has no effective tension (tension plus speed times momentum
+        divided by length) at the speed; if a property is given without `mode`, or `mode` for a held system.
     TypeError
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`, or `hanging_only` or `prove` is not a bool.
 
     Notes
     -----
-    Chains and rigs. Method: interval arithmetic with first and second derivatives of the upward sweep, Greenhill (1908),
-    section 8 (4), (12), then Newton's method on all pins in double-double. A link that is inverted, or whose
-    ``pendulum_length > length``, can have three inclinations under one load; all are followed. The list is not complete
-    exactly at a critical speed or where two shapes start, or if the budget ends. For heights below about 2e-15 of the
-    longest link it is empty and not complete: double-double cannot represent the offsets from which the tensions follow.
-    Cost: 15 milliseconds for 84 hanging shapes of eight plummets, about 30 for all 64 shapes of four plummets. The
-    number of shapes and the time roughly double with each link; if links may be inverted they quadruple.
+    Chains and rigs. Method: interval arithmetic with first and second derivatives of the upward sweep, Greenhill
+    (1908), section 8 (4), (12), then Newton's method on all pins in double-double. A link that is inverted, or whose
+    ``pendulum_length > length``, can have three inclinations under one load; all are followed. The list is not
+    complete exactly at a critical speed or where two shapes start, or if the budget ends. For heights below about
+    2e-15 of the longest link it is empty and not complete: double-double cannot represent the offsets from which the
+    tensions follow. Cost: 15 milliseconds for 84 hanging shapes of eight plummets, about 30 for all 64 shapes of four
+    plummets. The number of shapes and the time roughly double with each link; if links may be inverted they quadruple.
 
     Cords. Method: power series along the cord, Newton's method on the point where it crosses the axis. Inclinations,
     and offsets divided by the length, are within ``error_bound``, which is an estimate.
@@ -215,9 +214,10 @@ def steady_shapes(
     proved = boolean(place, "prove", prove)
     shared = integer(place, "threads", threads)
     g, height, speed_ = _turning(place, system, conical_height, angular_speed, gravity)
-    # of the two numbers for one speed the core gets the one that was given
-    by = (height, None) if kind is Cord or (conical_height is not None) else (None, speed_)
-    found = _core.steady_shapes(compiled_system(place, system, g), *by, g, turns, hanging, waves, proved, most, shared)
+    # of the two numbers for one speed the core gets the one that was given; a cord the height
+    of_core, by_height = compiled_system(place, system, g), kind is Cord or conical_height is not None
+    one, other = (height, None) if by_height else (None, speed_)
+    found = _core.steady_shapes(of_core, one, other, g, turns, hanging, waves, proved, most, shared)
     limits = {"hanging_only": hanging and kind in (Chain, Rig), "conical_height": height, "angular_speed": speed_}
     return shapes_made(found, system, g, turns, **limits)
 
@@ -272,11 +272,12 @@ def steady_shape(
     Parameters
     ----------
     system : Chain, Rig, Cord or Held
-        The system: a chain of N links (100,000 and more are possible), a rig, a cord, or a chain or cord held at a span.
+        The system: a chain of N links (100,000 and more are possible), a rig, a cord, or a chain or cord held at a
+        span.
     mode : int, optional
-        Number of the mode at which the branch leaves the vertical, from 1 for the slowest. With the support off the axis
-        it must be 1, the branch from rest; for shapes of other branches use `branches` and `Branch.at`. For a held
-        system it is the number of half waves of the branch at high speed.
+        Number of the mode at which the branch leaves the vertical, from 1 for the slowest. With the support off the
+        axis it must be 1, the branch from rest; for shapes of other branches use `branches` and `Branch.at`. For a
+        held system it is the number of half waves of the branch at high speed.
     conical_height : float
         Conical height of the speed, m, less than that of the mode. Give exactly one of this and the next four.
     angular_speed : float
@@ -295,16 +296,17 @@ def steady_shape(
     direction : {1, -1}, optional
         Direction of rotation; only a rig with flywheels depends on it.
     min_conical_height : float, optional
-        Conical height at which the search ends, m, less than that of the mode; 1e-6 of that of the mode if left out. Not used
-        for a held system.
+        Conical height at which the search ends, m, less than that of the mode; 1e-6 of that of the mode if left out.
+        Not used for a held system.
 
     Returns
     -------
     SteadyShape
-        The shape, the first on the branch that has the property (`steady_shapes` with `mode` returns all). Inclinations are
-        within ``error_bound``, for chains proved except at a fold (measured: 2.3e-16), for cords estimated. Each step checks that the shape is on this branch, see `branch`. For a held system
-        and a speed it is the shape reached from the nearly straight chain; for a held system and a top tension it is the
-        fastest shape of the branch with that tension.
+        The shape, the first on the branch that has the property (`steady_shapes` with `mode` returns all).
+        Inclinations are within ``error_bound``, for chains proved except at a fold (measured: 2.3e-16), for cords
+        estimated. Each step checks that the shape is on this branch, see `branch`. For a held system and a speed it is
+        the shape reached from the nearly straight chain; for a held system and a top tension it is the fastest shape
+        of the branch with that tension.
 
     Raises
     ------
@@ -375,18 +377,19 @@ def on_branch(
 ) -> Any:
     """The compiled answer to a question about shapes on the branch of a mode."""
     number = counted(place, "mode", mode)
-    held = isinstance(system, Held)
-    if held:
+    if held := isinstance(system, Held):
         _check_held(place, system, number, name, value)
         if question is not _core.steady_shape:
-            raise ValueError(f"{place}: mode is not available for a Held; use branches for the shapes along a branch, got {mode}")
+            what = "mode is not available for a Held; use branches for the shapes along a branch"
+            raise ValueError(f"{place}: {what}, got {mode}")
     lowest = None if lowest is None else one_positive(place, "min_conical_height", lowest)
     force = value
     if name == "top_tension":
         unit = system._force(gravity)
         if isinstance(system, Chain | Cord) and not value > (least := unit * system._total):
             what = type(system).__name__.lower()
-            raise ValueError(f"{place}: top_tension must be more than the weight {least:.6g} of the {what}, got {value:g}")
+            what = f"top_tension must be more than the weight {least:.6g} of the {what}"
+            raise ValueError(f"{place}: {what}, got {value:g}")
         force /= unit
     core = compiled_system(place, system, gravity)
     try:
@@ -409,8 +412,8 @@ def _check_held(place: str, held: Held, mode: int, name: str, value: float) -> N
         raise ValueError(f"{place}: mode must be from 1 to {most}, got {mode}")
     if name == "top_tension" and not held.is_firm:
         raise ValueError(
-            f"{place}: top_tension is for firm ends; with springs give angular_speed, or read the speed from the top_tension "
-            f"of a branch, got {value:g}"
+            f"{place}: top_tension is for firm ends; with springs give angular_speed, or read the speed from the "
+            f"top_tension of a branch, got {value:g}"
         )
 
 

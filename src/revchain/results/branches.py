@@ -44,8 +44,8 @@ class StabilityWindow(Result, row="end", title="Stability window: {verdict}"):
 class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spread=True):
     """A branch of steady shapes, point by point; returned by `branch` and `branches`.
 
-    Arrays have one number for each point. The branch of a chain, rig or cord that hangs is followed along its arc from its
-    start; that of a held system goes from the greatest speed to lower speeds and, after a fold, back.
+    Arrays have one number for each point. The branch of a chain, rig or cord that hangs is followed along its arc from
+    its start; that of a held system goes from the greatest speed to lower speeds and, after a fold, back.
 
     Examples
     --------
@@ -64,26 +64,28 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
     __slots__ = ()
     system: Field[Any] = Field("The chain, rig, cord, or held chain or cord.")
     mode: Field[int | None] = Field(
-        "Number of the mode at whose critical speed the branch leaves the vertical; 1 for a branch from rest; None for "
-        "an isolated branch. For a held system its half waves at the greatest speed; with ends off the axis the number is "
-        "``2 * k - 1`` if the lowest link of the k half waves leads outwards, ``2 * k`` if inwards.",
+        "Number of the mode at whose critical speed the branch leaves the vertical; 1 for a branch from rest; None "
+        "for an isolated branch. For a held system its half waves at the greatest speed; with ends off the axis the "
+        "number is ``2 * k - 1`` if the lowest link of the k half waves leads outwards, ``2 * k`` if inwards.",
         lambda b: b._found().mode or None,
         part=True,
         fact=True,
     )
     birth: Field[str] = Field(
-        "Start of the branch. ``'vertical'``: it leaves the straight chain or cord at a critical speed. ``'rest'``: it starts "
-        "at rest, with the support off the axis. ``'fold'``: it is isolated; two shapes start at a fold. Not for held systems.",
+        "Start of the branch. ``'vertical'``: it leaves the straight chain or cord at a critical speed. ``'rest'``: "
+        "it starts at rest, with the support off the axis. ``'fold'``: it is isolated; two shapes start at a fold. "
+        "Not for held systems.",
         fact=True,
     )
     end: Field[str] = Field(
         "Reason why the branch ends. ``'height'``: the given conical height is reached. ``'closed'``: the branch is "
-        "back at its start. ``'vertical'``: it is back at the straight chain. ``'budget'``: `max_points` (of a held system "
-        "3000 steps) are done. ``'stuck'``: no step passed every check. ``'slow'``: it approaches rest. ``'slack'``: a link "
-        "becomes slack, or with flywheels horizontal, or turns over (of a held system the last speed is within a measured "
-        "2e-5, relative). ``'loose'``: the spring at the support no longer holds the chain. ``'folded'``: a held cord hangs "
-        "folded along the axis. ``'speed'``: the greatest speed is reached again. ``'rest'``: with ends off the axis the held "
-        "chain hangs as at rest, at a conical height of 10,000 lengths.",
+        "back at its start. ``'vertical'``: it is back at the straight chain. ``'budget'``: `max_points` (of a held "
+        "system 3000 steps) are done. ``'stuck'``: no step passed every check. ``'slow'``: it approaches rest. "
+        "``'slack'``: a link becomes slack, or with flywheels horizontal, or turns over (of a held system the last "
+        "speed is within a measured 2e-5, relative). ``'loose'``: the spring at the support no longer holds the "
+        "chain. ``'folded'``: a held cord hangs folded along the axis. ``'speed'``: the greatest speed is reached "
+        "again. ``'rest'``: with ends off the axis the held chain hangs as at rest, at a conical height of 10,000 "
+        "lengths.",
         fact=True,
     )
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", fact=True)
@@ -94,10 +96,11 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
     )
     conical_height: Field[Floats] = Field("Conical height of the speed, m.", heading="height", unit="m")
     lowest_inclination: Field[Floats] = Field(
-        "Inclination of the lowest link, or of the lower end of a cord, to the downward vertical (of held systems to the upward "
-        "one), rad. Of two mirror images the branch follows the one that agrees with the mode shape of `modes`; an isolated "
-        "branch follows the one that starts with the free end at a positive offset. The link is vertical where the sign "
-        "changes. With the support off the axis there are no mirror images; outwards is positive.",
+        "Inclination of the lowest link, or of the lower end of a cord, to the downward vertical (of held systems to "
+        "the upward one), rad. Of two mirror images the branch follows the one that agrees with the mode shape of "
+        "`modes`; an isolated branch follows the one that starts with the free end at a positive offset. The link is "
+        "vertical where the sign changes. With the support off the axis there are no mirror images; outwards is "
+        "positive.",
         heading="lowest link",
         unit="rad",
     )
@@ -120,7 +123,8 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         "Whether each point is a fold.", lambda b: np.isin(b.point, b.folds), heading="fold", column="fold"
     )
     moment_of_inertia: Field[Floats] = Field(
-        "Moment of inertia about the axis, kg m^2; for a system given by weight, in weight times length squared.", axes=()
+        "Moment of inertia about the axis, kg m^2; for a system given by weight, in weight times length squared.",
+        axes=(),
     )
     effective_energy: Field[Floats] = Field(
         "Potential energy minus half the moment of inertia times the speed squared, J. Not for held cords.",
@@ -130,14 +134,14 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
     )
     arc: Field[Floats] = Field(
         "Arc length of the branch from its first point, dimensionless: the root of the mean square of the links' ``d "
-        "arsinh(tan(inclination))`` (of a cord: that of its free end) plus the square of ``d log(conical_height)``, summed "
-        "up. Not for held systems.",
+        "arsinh(tan(inclination))`` (of a cord: that of its free end) plus the square of ``d log(conical_height)``, "
+        "summed up. Not for held systems.",
         axes=(),
     )
     folds: Field[Whole] = Field(
         "Indices of the points at which the conical height has a local extremum: two shapes appear or merge there.",
     )
-    _points: Field[Floats] = Field("The numbers from which shapes are computed.", lambda b: b._found().points, part=True)
+    _points: Field[Floats] = Field("The numbers that give the shapes.", lambda b: b._found().points, part=True)
     _shapes: Field[dict[str, Any] | None] = Field("The numbers of the shape at each point of a held system, else None.")
 
     def shape(self, point: int) -> SteadyShape:
@@ -151,9 +155,9 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         Returns
         -------
         SteadyShape
-            The shape of a chain or rig, computed in double-double. Its ``error_bound`` is proved, except at a fold, where it
-            is an estimate, as it is for cords (at a fold 1e-7, because of the place of the fold on the arc) and for held
-            systems; for a held chain `steady_shapes` at its speed proves one.
+            The shape of a chain or rig, computed in double-double. Its ``error_bound`` is proved, except at a fold,
+            where it is an estimate, as it is for cords (at a fold 1e-7, because of the place of the fold on the arc)
+            and for held systems; for a held chain `steady_shapes` at its speed proves one.
 
         Raises
         ------
@@ -216,10 +220,12 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         place = "revchain.Branch.at"
         g = self.gravity if gravity is None else one_positive(place, "gravity", gravity)
         if hasattr(self.system, "support") and g != self.gravity:
-            raise ValueError(f"{place}: gravity must be that of the rig's branch, {self.gravity:g}, got {g:g}; follow it anew")
+            what = f"gravity must be that of the rig's branch, {self.gravity:g}"
+            raise ValueError(f"{place}: {what}, got {g:g}; follow it anew")
         height = height_of(place, conical_height, angular_speed, g)
         if self._shapes is not None:
-            raise ValueError(f"{place}: is for systems that hang; for a Held ask steady_shapes at the speed, got {height:g}")
+            what = "is for systems that hang; for a Held ask steady_shapes at the speed"
+            raise ValueError(f"{place}: {what}, got {height:g}")
         return tuple(shape_made(found, self.system, g, self.direction) for found in self._found().shapes_at(height))
 
     def stability_windows(
@@ -387,13 +393,13 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}"):
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", fact=True)
     direction: Field[int] = Field("Direction of rotation, 1 or -1; only a rig with flywheels depends on it.", fact=True)
     consistent: Field[bool] = Field(
-        "Whether at each of the speeds `looked_at` the list is proved (of a cord: scanned) and each of its shapes lies on "
-        "exactly one branch. Not for held systems, nor are the next three.",
+        "Whether at each of the speeds `looked_at` the list is proved (of a cord: scanned) and each of its shapes "
+        "lies on exactly one branch. Not for held systems, nor are the next three.",
         fact=True,
     )
     complete: Field[bool] = Field(
-        "Whether it is also proved that no branch is missing, even a closed one between two of these speeds; for a cord whether "
-        "a theorem counts the shapes (see `steady_shapes`) and every branch was followed to its end.",
+        "Whether it is also proved that no branch is missing, even a closed one between two of these speeds; for a "
+        "cord whether a theorem counts the shapes (see `steady_shapes`) and every branch was followed to its end.",
         fact=True,
     )
     remark: Field[str] = Field("A sentence that says what may be missing.", fact=True)
@@ -412,8 +418,8 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}"):
         Returns
         -------
         matplotlib.axes.Axes
-            The drawing. Colours show half waves, hollow marks folds. Isolated branches are dashed, with the speed at which
-            each starts. The title says whether the diagram is `complete`.
+            The drawing. Colours show half waves, hollow marks folds. Isolated branches are dashed, with the speed at
+            which each starts. The title says whether the diagram is `complete`.
 
         Raises
         ------
@@ -439,7 +445,8 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}"):
         return ax
 
     def _from_parts(self) -> Any:
-        raise UnavailableError("revchain.Branches: the branches of a held system do not have it; steady_shapes proves a list")
+        what = "the branches of a held system do not have it; steady_shapes proves a list"
+        raise UnavailableError(f"revchain.Branches: {what}")
 
     @property
     def _title_words(self) -> str:
@@ -460,8 +467,8 @@ def branch_made(found: Any, system: Any, gravity: float, direction: int) -> Bran
     given: dict[str, Any] = {"system": system, "gravity": gravity, "direction": direction}
     if not hasattr(found, "shapes"):
         return Branch._made(found, _shapes=None, **given)
-    names = [name for name, field in SteadyShape._fields.items() if field.part and hasattr(found.shapes[0], name.strip("_"))]
-    rows = {name: stacked([np.ravel(value) if name == "_path" else value for value in _each(found, name)]) for name in names}
+    first, parts = found.shapes[0], [name for name, field in SteadyShape._fields.items() if field.part]
+    rows = {name: stacked(_each(found, name)) for name in parts if hasattr(first, name.strip("_"))}
     height = rows["conical_height"]
     for name in FORCES:
         if name in rows:
@@ -487,7 +494,8 @@ def branch_made(found: Any, system: Any, gravity: float, direction: int) -> Bran
 
 
 def _each(found: Any, name: str) -> list[Any]:
-    return [getattr(shape, name.strip("_")) for shape in found.shapes]
+    values = [getattr(shape, name.strip("_")) for shape in found.shapes]
+    return [np.ravel(value) for value in values] if name == "_path" else values
 
 
 def branches_made(found: Any, system: Any, gravity: float, direction: int) -> Branches:

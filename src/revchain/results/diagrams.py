@@ -14,18 +14,17 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-def _components(name: str) -> tuple[Field[Floats], Field[Floats]]:
-    """The two columns of a table of vectors."""
-    x, z = (
-        Field[Floats](f"Component {axis} of `{name}`.", lambda d, k=k: getattr(d, name)[:, k], heading=f"{name} {axis}")
-        for k, axis in enumerate("xz")
-    )
-    return x, z
+def _component(name: str, k: int) -> Field[Floats]:
+    """A column of the table of vectors."""
+
+    def compute(diagram: ForceDiagram) -> Floats:
+        vectors: Floats = getattr(diagram, name)
+        return vectors[:, k]
+
+    return Field(f"Component {'xz'[k]} of `{name}`.", compute, heading=f"{name} {'xz'[k]}")
 
 
-class ForceDiagram(
-    Result, row="link", title="ForceDiagram: {_links} links, conical height {_height}"
-):
+class ForceDiagram(Result, row="link", title="ForceDiagram: {_links} links, conical height {_height}"):
     """The graphical construction of a steady shape as data: links lowest first, pins free end first.
 
     `SteadyShape.force_diagram` returns it. Points are rows ``(x from the axis, z upwards)``. The vertices of the
@@ -54,17 +53,18 @@ class ForceDiagram(
     reaction: Field[Floats] = Field(
         "Reaction at the upper pin of each link on the chain below, shape (N, 2); for point masses the ray."
     )
-    load_x, load_z = _components("load")
-    ray_x, ray_z = _components("ray")
-    reaction_x, reaction_z = _components("reaction")
+    load_x, load_z = _component("load", 0), _component("load", 1)
+    ray_x, ray_z = _component("ray", 0), _component("ray", 1)
+    reaction_x, reaction_z = _component("reaction", 0), _component("reaction", 1)
     lifted: Field[Floats] = Field(
-        "Place where the line of each load from the pole meets the horizontal line ``conical_height`` below it, shape (N,). "
-        "For point masses these are their offsets: P lifted vertically onto that line.",
+        "Place where the line of each load from the pole meets the horizontal line ``conical_height`` below it, shape "
+        "(N,). For point masses these are their offsets: P lifted vertically onto that line.",
         heading="lifted",
     )
     centre_of_gravity: Field[Floats] = Field(
-        "Centre of gravity ``G_m`` of link m and all links below, shape (N, 2). ``K_m`` lies on the axis, ``conical_height`` "
-        "higher. ``G_m K_m`` is parallel to the reaction, that is, to the thread above a point mass.",
+        "Centre of gravity ``G_m`` of link m and all links below, shape (N, 2). ``K_m`` lies on the axis, "
+        "``conical_height`` higher. ``G_m K_m`` is parallel to the reaction, that is, to the thread above a point "
+        "mass.",
         fact=True,
     )
     crossing: Field[Floats] = Field(
