@@ -130,6 +130,7 @@ def test_points_and_shapes_agree():
         shape = branch.shape(point)
         assert shape.inclination[0] == pytest.approx(branch.lowest_inclination[point], abs=1e-12)
         assert shape.offset[0] == pytest.approx(branch.tip_radius[point], abs=1e-12)
+        np.testing.assert_allclose(branch.inclination[point], shape.inclination, rtol=0, atol=1e-12)
         assert shape.conical_height == pytest.approx(branch.conical_height[point], rel=1e-12)
     with pytest.raises(ValueError, match="straight chain"):
         branch.shape(0)
@@ -244,7 +245,7 @@ WRONG = [
     ({"mode": 3, "tip_radius": 2.5}, "not met on the branch of mode 3"),
     *(({"top_tension": x}, "top_tension must be more than the weight.*got") for x in (3.0, 2.0)),
     *(({"tip_radius": x}, "tip.radius.*got") for x in (3.0, 4.0, np.nan)),
-    *(({"lowest_inclination": x}, "tip inclination must lie between 0 and pi/2.*got") for x in (np.pi / 2, 2.0)),
+    *(({"lowest_inclination": x}, "lowest_inclination must lie between 0 and pi/2.*got") for x in (np.pi / 2, 2.0)),
     ({"lowest_inclination": 0.0}, "lowest_inclination must be positive and finite, got 0"),
 ]
 

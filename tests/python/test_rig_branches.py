@@ -125,6 +125,7 @@ def test_links_that_stand_and_floats():
     assert not diagram.complete and "all hang in tension" in diagram.remark
     (shape,) = diagram[0].at(angular_speed=0.4)
     assert abs(shape.inclination[0]) > math.pi / 2 and figure_moments(standing, shape) <= 1e-14
+    np.testing.assert_allclose(diagram[0].inclination[-1], diagram[0].shape(-1).inclination, rtol=0, atol=1e-12)
     listed = rc.steady_shapes(standing, angular_speed=0.4)
     assert min(np.abs(each.inclination - shape.inclination).max() for each in listed) < 1e-13
     back = rc.steady_shape(standing, tip_radius=shape.offset[0])

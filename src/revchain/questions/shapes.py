@@ -172,7 +172,7 @@ def steady_shapes(
 
     >>> plummets = rc.Chain.uniform_plummets(3, length=3.0)
     >>> rc.steady_shapes(plummets, mode=2, tip_radius=0.53).speed.round(4)
-    array([8.4391, 9.3456])
+    array([ 7.0837, 13.5539])
 
     A cord, and a skipping rope with one and two half waves:
 
@@ -395,6 +395,8 @@ def on_branch(
     try:
         return question(core, number, name, force, gravity, direction, lowest)
     except ValueError as error:
+        if name == "lowest_inclination":  # which C++ calls that of the tip
+            raise ValueError(str(error).replace("tip inclination", name)) from None
         if name != "top_tension" or not held:
             raise
         what = str(error).partition(": ")[2].rpartition(", got ")[0]  # the number there is the tension / gravity

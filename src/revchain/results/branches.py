@@ -138,6 +138,12 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         "summed up. Not for held systems.",
         axes=(),
     )
+    inclination: Field[Any] = Field(
+        "Inclination of each link at each point, rad, shape (points, N), as in `SteadyShape`; of held cords at the "
+        "places of each shape. Not for hanging cords.",
+        lambda b: b._inclination(),
+        axes=lambda b: ("place",) if isinstance(b.inclination, tuple) else ("link",),
+    )
     folds: Field[Whole] = Field(
         "Indices of the points at which the conical height has a local extremum: two shapes appear or merge there.",
     )
@@ -331,6 +337,15 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         columns = (self.arc, self.conical_height, self.half_waves, self.folds, self._points)
         system: Any = self.system._under(self.gravity)
         return _core.branch_from(system, self.mode or 0, self.birth, *columns, self.gravity, self.direction)
+
+    def _inclination(self) -> Any:
+        if self._shapes is not None:
+            return self._shapes["inclination"]
+        if not isinstance(self._found(), _core.Branch):
+            raise UnavailableError("revchain.Branch.inclination: a hanging cord has it in the shapes: branch.shape(k)")
+        straight = np.arctan(np.sinh(self._points[:, : self.system.size]))  # to the line in which the link hangs or stands
+        turned = np.copysign(np.pi, straight) - straight
+        return np.where(getattr(self.system, "inverted", False), turned, straight)
 
     @property
     def _name(self) -> str:
