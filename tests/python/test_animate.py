@@ -482,7 +482,7 @@ def test_every_kind_of_moving_result_is_here():
         return {of} | {each for kind in of.__subclasses__() for each in kinds(kind)}
 
     shown = {kind.__name__ for kind in kinds(Moving) if not kind.__name__.startswith("_")}
-    assert shown == {type(make()).__name__ for make in ALL.values()} | {"Moving", "Shape"}  # bases
+    assert shown == {type(make()).__name__ for make in ALL.values()} | {"Moving"}
 
 
 def test_speeds_of_both_directions_are_in_the_chart():

@@ -121,18 +121,13 @@ def blocks_of(scene: Scene, largest: Scene, find: tuple[str, ...], max_shapes: i
     if "shapes" in find:
         labels = tuple(range(1, max_shapes + 1))
         blocks += [Block("shapes", "i8"), Block("shapes_complete", "?"), Block("half_waves", "i8", "shape", labels)]
-        blocks += [Block(name, "f8", "shape", labels) for name in (*_SHAPE, *[f"shape_{_accuracy(scene)}"] * bounds)]
+        blocks += [Block(name, "f8", "shape", labels) for name in (*_SHAPE, *["shape_error_bound"] * bounds)]
     if "response" in find:
         speeds = Columns(scene, 1).speeds_of_response({})[0].shape[1]
         labels = tuple(range(1, speeds + 1))
         names = _OF_RESPONSE if bounds else _OF_RESPONSE[:-1]
         blocks += [Block(name, "f8", "" if speeds == 1 else "speed", labels) for name in names]
     return tuple(blocks)
-
-
-def _accuracy(scene: Scene) -> str:
-    """The field of a shape that has the size of its error."""
-    return "error_bound" if scene.cord is UNSET else "error_estimate"
 
 
 def _modes_of(scene: Scene, largest: Scene) -> int:
@@ -499,7 +494,7 @@ def one_by_one(scene: Scene, find: tuple[str, ...]) -> tuple[dict[str, Any], boo
         found |= {"shapes": len(shapes), "shapes_complete": shapes.complete, "half_waves": [s.half_waves for s in shapes]}
         for name, field in zip(_SHAPE, ("inclination", "inclination", "offset", "tension"), strict=True):
             found[name] = [getattr(s, field)[-1 if name.startswith("top") else 0] for s in shapes]
-        found[f"shape_{_accuracy(scene)}"] = [getattr(s, _accuracy(scene)) for s in shapes]
+        found["shape_error_bound"] = shapes.error_bound
         good = good and bool(shapes.complete)
     if "response" in find:
         moved = scene.response()
