@@ -70,7 +70,8 @@ Branch branch_from(const System& system, Index mode, const std::string& birth, c
             trace.system = std::make_shared<const BranchSystem>(system, gravity, rotation(direction));
     } else {
         using Options = For<System, revchain::BranchOptions, revchain::RigBranchOptions>;
-        BranchRoot root = BranchRoot::of("Branch", system, turning(Options{.mode = mode, .gravity = gravity}, direction));
+        BranchRoot root =
+            BranchRoot::of("Branch", system, turning(Options{.mode = mode, .gravity = gravity}, direction));
         trace.system = root.system;
         if (root.onset)
             trace.onset = std::make_shared<const revchain::finite::BranchOnset>(std::move(*root.onset));

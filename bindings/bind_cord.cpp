@@ -57,7 +57,7 @@ Cord cord_of(double length, std::optional<double> weight, const Density& density
     return Cord(length, options);
 }
 
-/// The steps of the path of a shape, and a last row: free end, support (arc, height), tip and unit, see `finite::PathKind`.
+/// The steps of the path of a shape, and a last row: free end, support (arc, height), tip and unit of `finite::PathKind`.
 py::array path_of(const CordShape& shape) {
     revchain::Table<double> table(static_cast<Index>(shape.steps.size()) + 1, 5);
     Index i = 0;

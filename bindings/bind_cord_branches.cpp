@@ -10,7 +10,7 @@ using revchain::CordBranch;
 using revchain::Index;
 using Point = revchain::finite::BranchLine::Point;
 
-revchain::OnBranchOptions on_branch(Index mode, const std::string& name, double value, double gravity,
+revchain::OnBranchOptions on_branch(Index mode, const std::string& name, double value, double gravity, int,
                                     std::optional<double> lowest) {
     return selected(revchain::OnBranchOptions{.mode = mode, .gravity = gravity, .min_conical_height = lowest}, name,
                     value);
@@ -63,16 +63,12 @@ void bind_cord_branches(py::module_& module) {
             return revchain::branches(cord, {.min_conical_height = height, .lists = lists});
         },
         "system"_a, "height"_a, "lists"_a, "budget"_a, "proof_budget"_a, "gravity"_a, "direction"_a);
-    def_on_branch<Cord>(module, "shapes_on_branch",
-                        [](const Cord& cord, Index mode, const std::string& name, double value, double gravity, int,
-                           std::optional<double> lowest) {
-                            return revchain::shapes_on_branch(cord, on_branch(mode, name, value, gravity, lowest)).shapes;
-                        });
-    def_on_branch<Cord>(module, "steady_shape",
-                        [](const Cord& cord, Index mode, const std::string& name, double value, double gravity, int,
-                           std::optional<double> lowest) {
-                            return revchain::steady_shape(cord, on_branch(mode, name, value, gravity, lowest));
-                        });
+    def_on_branch<Cord>(module, "shapes_on_branch", [](const Cord& cord, auto... wanted) {
+        return revchain::shapes_on_branch(cord, on_branch(wanted...)).shapes;
+    });
+    def_on_branch<Cord>(module, "steady_shape", [](const Cord& cord, auto... wanted) {
+        return revchain::steady_shape(cord, on_branch(wanted...));
+    });
     module.def("branch_from", &cord_branch_from, "system"_a, "mode"_a, "birth"_a, "arc"_a, "conical_height"_a,
                "half_waves"_a, "folds"_a, "points"_a, "gravity"_a, "direction"_a);
 }

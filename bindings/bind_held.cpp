@@ -53,9 +53,9 @@ auto branch_of(const System& held, Index mode, double height, double max_step) {
 }
 
 template <class System, class Shape>
-void def_held_branches(py::module_& module, const char* name, const char* list) {
+void def_held_branches(py::module_& module, const char* branch, const char* list) {
     using Found = revchain::HeldBranchOf<Shape>;
-    py::class_<Found>(module, name, "A branch of steady shapes of a system held at a span.")
+    py::class_<Found>(module, branch, "A branch of steady shapes of a system held at a span.")
         .def_readonly("mode", &Found::mode)
         .def_readonly("shapes", &Found::shapes)
         .def_readonly("folds", &Found::folds)

@@ -6,8 +6,8 @@
 #include "bindings.hpp"
 #include "revchain/stability.hpp"
 
-/// What shapes of all systems have. Python makes a shape from its numbers: `blank_shape(system)`, then each number is set.
-/// Forces have the same names for all systems; those of held systems are multiplied by the conical height.
+// What shapes and branches of all systems have. Python makes a shape from its numbers: `blank_shape(system)`, then each
+// number is set. Forces have the same names for all systems; those of held systems are times the conical height.
 
 template <class Shape>
 void def_column(py::class_<Shape>& shapes, const char* name, revchain::Vector<double> Shape::*member) {
@@ -176,7 +176,8 @@ void set_columns(Branch& branch, const Array& arc, const Array& height, const Ar
     const auto copy = [](auto& to, const Array& from) {
         using Value = typename std::decay_t<decltype(to)>::value_type;
         to.resize(static_cast<std::size_t>(from.size()));
-        std::transform(from.data(), from.data() + from.size(), to.begin(), [](double x) { return static_cast<Value>(x); });
+        std::transform(from.data(), from.data() + from.size(), to.begin(),
+                       [](double x) { return static_cast<Value>(x); });
     };
     copy(branch.arc, arc), copy(branch.conical_height, height);
     copy(branch.half_waves, half_waves), copy(branch.folds, folds);

@@ -158,7 +158,6 @@ class Place(NamedTuple):
     tension: Any
 
 
-
 def forced(name: str) -> Callable[[Any], Any]:
     """A function that returns a force of the compiled result, times gravity if masses were given."""
 
