@@ -482,13 +482,16 @@ def branch_made(found: Any, system: Any, gravity: float, direction: int) -> Bran
     given: dict[str, Any] = {"system": system, "gravity": gravity, "direction": direction}
     if not hasattr(found, "shapes"):
         return Branch._made(found, _shapes=None, **given)
-    first, parts = found.shapes[0], [name for name, field in SteadyShape._fields.items() if field.part]
-    rows = {name: stacked(_each(found, name)) for name in parts if hasattr(first, name.strip("_"))}
+    shapes, parts = found.shapes, [name for name, field in SteadyShape._fields.items() if field.part]
+    rows = {name: stacked(_each(shapes, name)) for name in parts if hasattr(shapes[0], name.strip("_"))}
     height = rows["conical_height"]
-    for name in FORCES:
-        if name in rows:
-            per = system._force(gravity) / height
-            rows[name] = stacked([factor * np.asarray(row) for factor, row in zip(per, rows[name], strict=True)])
+    per = system._force(gravity) / height
+    for name in (name for name in FORCES if name in rows):
+        each = rows[name]
+        if isinstance(each, tuple):
+            rows[name] = tuple(factor * row for factor, row in zip(per, each, strict=True))
+        else:
+            rows[name] = per.reshape(-1, *(1,) * (each.ndim - 1)) * each
     rows.setdefault("proved", np.zeros(len(height), bool))  # estimated for cords
     energy = {"effective_energy": rows["effective_energy"]} if "effective_energy" in rows else {}
     return Branch._made(
@@ -508,8 +511,8 @@ def branch_made(found: Any, system: Any, gravity: float, direction: int) -> Bran
     )
 
 
-def _each(found: Any, name: str) -> list[Any]:
-    values = [getattr(shape, name.strip("_")) for shape in found.shapes]
+def _each(shapes: list[Any], name: str) -> list[Any]:
+    values = [getattr(shape, name.strip("_")) for shape in shapes]
     return [np.ravel(value) for value in values] if name == "_path" else values
 
 
