@@ -12,11 +12,9 @@ Questions
     modes, count_modes, steady_shapes, steady_shape, branches, branch, response, swing, tune, fit, explain;
     conical_heights for many chains at once
 Results
-    Modes, SteadyShapes, SteadyShape, CordShape, HeldShape, HeldCordShape, Branches, Branch,
-    HeldBranches, HeldBranch,
+    Modes, SteadyShapes, SteadyShape, Branches, Branch,
     Stability, ForceDiagram, Response, Swing, Tuned, Fitted, Explanation, Sensitivity, Uncertainty; ``load`` reads the
     files that their method ``save`` wrote. Variants of these, and classes of their fields, are in the reference and can
-    be imported from here, too: CordBranch, Certificate and others
 Closed forms
     conical_pendulum, plummet, two_links, elliptic, hoop, bell_and_clapper, funicular_polygon, transverse_modes,
     recurrence_matrices; BellAndClapper, BufferImpact, GovernorMotion, GyrostaticString, SkippingRope, TortuousRope,
@@ -53,23 +51,18 @@ from typing import Any as _Any
 from .questions.batch import conical_heights as conical_heights
 from .questions.branches import branch as branch
 from .questions.branches import branches as branches
-from .questions.branches import steady_shape as steady_shape
 from .questions.explain import explain as explain
 from .questions.fit import fit as fit
 from .questions.modes import count_modes as count_modes
 from .questions.modes import modes as modes
 from .questions.modes import recurrence_matrices as recurrence_matrices
 from .questions.response import response as response
+from .questions.shapes import steady_shape as steady_shape
 from .questions.shapes import steady_shapes as steady_shapes
 from .questions.swing import swing as swing
 from .questions.tune import tune as tune
-from .results.bent import CordShape as CordShape
-from .results.bent import HeldCordShape as HeldCordShape
-from .results.bent import HeldShape as HeldShape
 from .results.branches import Branch as Branch
 from .results.branches import Branches as Branches
-from .results.held_branches import HeldBranch as HeldBranch
-from .results.held_branches import HeldBranches as HeldBranches
 from .results.diagrams import ForceDiagram as ForceDiagram
 from .results.explanation import Explanation as Explanation
 from .results.fitted import Fitted as Fitted
@@ -114,10 +107,8 @@ if _TYPE_CHECKING:
     from .exchange.read import from_urdf as from_urdf
     from .exchange.urdf import to_urdf as to_urdf
     from .closed_forms.bell import Strike as Strike
-    from .results.bent import Place as Place
+    from .results.shapes import Place as Place
     from .results.branches import StabilityWindow as StabilityWindow
-    from .results.cord_branches import CordBranch as CordBranch
-    from .results.cord_branches import CordBranches as CordBranches
     from .results.modes import Certificate as Certificate
     from .results.modes import OtherModes as OtherModes
     from .results.storage import load as load
@@ -151,10 +142,8 @@ _LATER = dict.fromkeys(_CLOSED_FORMS, "closed_forms") | {
 }
 _RECEIVED = {  # classes of results that no program makes; `dir` leaves them out
     "Certificate": "results.modes",
-    "CordBranch": "results.cord_branches",
-    "CordBranches": "results.cord_branches",
     "OtherModes": "results.modes",
-    "Place": "results.bent",
+    "Place": "results.shapes",
     "StabilityWindow": "results.branches",
     "Strike": "closed_forms.bell",
 }

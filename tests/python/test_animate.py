@@ -64,7 +64,7 @@ def test_places_of_cords():
         found = ALL[kind]()
         shape = found[0] if kind == "shapes of a rope" else found
         figure = film(found).figures[0]
-        at = shape.at(np.linspace(0, 1, 101))
+        at = shape.along(np.linspace(0, 1, 101))
         assert np.array_equal(figure.offset[0], at.offset) and np.array_equal(figure.height[0], at.height)
 
 
@@ -335,7 +335,7 @@ def test_every_kind_of_moving_result_is_here():
         return {of} | {each for kind in of.__subclasses__() for each in kinds(kind)}
 
     shown = {kind.__name__ for kind in kinds(Moving) if not kind.__name__.startswith("_")}
-    assert shown == {type(make()).__name__ for make in ALL.values()} | {"Moving", "Shape"}  # bases
+    assert shown == {type(make()).__name__ for make in ALL.values()} | {"Moving"}
 
 
 def test_speeds_of_both_directions_are_in_the_chart():

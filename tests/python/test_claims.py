@@ -547,7 +547,7 @@ def shot_from_the_free_end(offset, height, tip, steps=100):
 
 
 def test_heavy_tips_without_links():
-    """`steady_shapes` of a `Cord`: what is within `error_estimate` of the inclination of a point mass."""
+    """`steady_shapes` of a `Cord`: what is within `error_bound` of the inclination of a point mass."""
     d, worst = Draw("continuous_shapes"), Worst()
     for _ in range(8):
         tip, height = d.power(6, 10), d.uniform(0.05, 0.95)
@@ -557,8 +557,8 @@ def test_heavy_tips_without_links():
             start = mp.sqrt(1 - x**2)
             offset = mp.findroot(lambda y: shot_from_the_free_end(y, x, t)[0], (start, start * 0.999999))  # noqa: B023
             inclination = shot_from_the_free_end(offset, x, t)[1]
-            worst.note("inclination", off(shape.at(1.0).inclination, inclination) / shape.error_estimate, (tip, height))
-            worst.note("offset", off(shape.at(0.0).offset, offset) / shape.error_estimate, (tip, height))
+            worst.note("inclination", off(shape.along(1.0).inclination, inclination) / shape.error_bound, (tip, height))
+            worst.note("offset", off(shape.along(0.0).offset, offset) / shape.error_bound, (tip, height))
     worst.check()
 
 
@@ -770,7 +770,7 @@ def test_folds():
         for mode in range(2, 1 + min(5, rc.count_modes(chain, conical_height=end * 1.01))):
             branch = rc.branch(chain, mode, min_conical_height=end)
             for at in branch.folds:
-                height, inclination = float(branch.conical_height[at]), abs(branch.tip_inclination[at])
+                height, inclination = float(branch.conical_height[at]), abs(branch.lowest_inclination[at])
                 tangent, exact = fold_near(math.tan(inclination), height)
                 assert ulps(height, exact) * ULP <= 1e-13, (weight, length, mode)
                 assert inclination == pytest.approx(float(mp.atan(tangent)), abs=1e-6 * branch.arc[-1])

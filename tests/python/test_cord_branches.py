@@ -23,10 +23,10 @@ def test_a_branch_and_its_shapes():
     last = branch.shape(-1)
     assert last.offset[0] == pytest.approx(branch.tip_radius[-1], rel=1e-12)
     assert last.tension[-1] == pytest.approx(branch.top_tension[-1], rel=1e-12)
-    assert last.inclination[0] == pytest.approx(branch.tip_inclination[-1], rel=1e-12)
+    assert last.inclination[0] == pytest.approx(branch.lowest_inclination[-1], rel=1e-12)
     # the moment of inertia, by the trapezium rule on the shape
     arc = np.linspace(0.0, 1.0, 4001)
-    by_hand = 0.3 * last.offset[0] ** 2 + 2.0 * np.trapezoid(last.at(arc).offset ** 2, arc)
+    by_hand = 0.3 * last.offset[0] ** 2 + 2.0 * np.trapezoid(last.along(arc).offset ** 2, arc)
     assert branch.moment_of_inertia[-1] == pytest.approx(by_hand, rel=1e-5)
     for wrong in (len(branch), -len(branch) - 1, 0):
         with pytest.raises(ValueError, match="point"):
@@ -41,16 +41,16 @@ def test_inverse_questions_agree(cord):
     shape = rc.steady_shape(cord, mode=2, angular_speed=speed)
     assert shape.angular_speed == pytest.approx(speed, rel=1e-15)
     for asked in (
-        {"tip_inclination": float(shape.inclination[0])},
+        {"lowest_inclination": float(shape.inclination[0])},
         {"tip_radius": float(shape.offset[0])},
         {"top_tension": float(shape.tension[-1])},
         {"conical_height": shape.conical_height},
     ):
         again = rc.steady_shape(cord, mode=2, **asked)
         assert again.angular_speed == pytest.approx(speed, rel=1e-11)
-        (same,) = rc.steady_shape(cord, mode=2, all=True, **asked)
+        (same,) = rc.steady_shapes(cord, mode=2, **asked)
         assert same == again
-        assert again.at(0.4 * cord.length).offset == pytest.approx(shape.at(0.4 * cord.length).offset, rel=1e-9)
+        assert again.along(0.4 * cord.length).offset == pytest.approx(shape.along(0.4 * cord.length).offset, rel=1e-9)
 
 
 def test_the_diagram():
@@ -59,8 +59,8 @@ def test_the_diagram():
     assert "a theorem counts the shapes" in repr(diagram)
     assert rc.branches(TIP, max_angular_speed=16.0).complete  # a tip, too
     tapered = rc.Cord(1.0, mass=2.0, density=1.0, tip_mass=0.3)
-    other = rc.branches(tapered, max_angular_speed=16.0, lists=3)
-    assert len(other) == 3 and other.consistent and not other.complete and other.looked_at.size == 3
+    other = rc.branches(tapered, max_angular_speed=16.0)
+    assert len(other) == 3 and other.consistent and not other.complete and other.looked_at.size == 16
     assert rc.branches(tapered, max_angular_speed=5.0).complete  # one mode
 
 
@@ -130,7 +130,7 @@ def test_swing():
 def test_pictures():
     pytest.importorskip("matplotlib")
     branch = rc.branch(TIP, 1, max_angular_speed=10.0)
-    assert branch.plot().get_ylabel() == "tip inclination (degrees)"
+    assert branch.plot().get_ylabel() == "inclination of the lowest link (degrees)"
     assert rc.branches(rc.Cord(1.0), max_angular_speed=10.0).plot().get_title() == "all branches: proved complete"
     found = rc.swing(TIP, [0.0, 0.7], offset=lambda s: 0.1 * (1 - s))
     assert found.plot().get_ylabel() == "depth below the support (m)"

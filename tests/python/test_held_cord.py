@@ -117,7 +117,7 @@ def test_branches():
         same = rc.steady_shape(BOWED, mode=branch.mode, angular_speed=float(branch.angular_speed[point]))
         assert same.half_waves == branch.half_waves[point] or branch.mode > 3
         places = np.linspace(0.1, 1.9, 7)
-        np.testing.assert_allclose(same.at(places).offset, shape.at(places).offset, atol=1e-12)
+        np.testing.assert_allclose(same.along(places).offset, shape.along(places).offset, atol=1e-12)
         assert same.moment_of_inertia == pytest.approx(branch.moment_of_inertia[point], rel=1e-10)
         listed = rc.steady_shapes(BOWED, angular_speed=float(same.angular_speed), max_half_waves=branch.mode)
         assert any(abs(each.moment_of_inertia / same.moment_of_inertia - 1) < 1e-9 for each in listed)

@@ -289,7 +289,7 @@ def test_numbers_with_units():
     m = rc.modes(POINTS, angular_speed=("10 rpm", 3 * unit.rad / unit.s), gravity="981 cm/s^2", rtol="1 %")
     assert len(m) == 1 and m.gravity == 9.81 and m.rtol == 0.01
     assert rc.count_modes(POINTS, angular_speed=["1 rpm", "200 rpm"]).tolist() == [0, 2]
-    assert rc.steady_shape(POINTS, tip_inclination="20 deg").inclination[0] == pytest.approx(math.radians(20))
+    assert rc.steady_shape(POINTS, lowest_inclination="20 deg").inclination[0] == pytest.approx(math.radians(20))
     assert rc.Held(rc.Cord("1 m"), span="50 cm").span == 0.5
     assert rc.Flywheel(mass="200 g", radius_of_gyration="5 cm", spin="3000 rpm").spin == pytest.approx(100 * math.pi)
     turns = [rc.steady_shapes(POINTS, angular_speed=speed).angular_speed for speed in ("2 Hz", "2 rev/s", 2 * unit.Hz, "120 RPM")]
@@ -350,7 +350,7 @@ def test_hasattr_of_every_attribute():
         things += [found, found[0], rc.branches(system, max_angular_speed=12.0)]
     things += [rc.tune(POINTS, angular_speed=3.0), rc.explain(POINTS), rc.swing(POINTS, [0.0, 1.0], offset=[0.1, 0.05, 0.0])]
     missing = {f"{type(thing).__name__}.{name}" for thing in things for name in dir(thing) if not hasattr(thing, name)}
-    assert {"CordShape.sensitivity", "HeldCordShape.sensitivity", "Modes.sensitivity", "Chain.weight"} <= missing
+    assert {"SteadyShape.sensitivity", "SteadyShape.arc_length", "Branches.complete", "Modes.sensitivity", "Chain.weight"} <= missing
     with pytest.raises(ValueError, match="cut the cord into links"):  # which it was and stays, too
         things[things.index(found[0])].sensitivity  # noqa: B018
 
@@ -367,7 +367,7 @@ def test_classes_of_results_can_be_imported(repository):
     """A class of which a program receives an object is in the package, for isinstance and annotations."""
     for module in pkgutil.iter_modules(results.__path__, "revchain.results."):
         importlib.import_module(module.name)
-    bases = {"DerivativesByLink", "Results", "Shape", "Solved"}
+    bases = {"DerivativesByLink", "Results", "Solved"}
     parts = {"PairShape", *(name for name in Result._kinds if name.endswith("Derivatives"))}
     received = {name for name in Result._kinds if name[0] != "_"} - bases - parts
     assert len(received) > 25 and all(getattr(rc, name) is Result._kinds[name] for name in received)

@@ -131,20 +131,20 @@ RESULTS = {  # every kind of result, made when a test asks for it
     "Branches": diagram,
     "Branch, isolated": lambda: diagram()[3],
     "Branch": lambda: rc.branch(CHAIN, 1, min_conical_height=0.5 * float(modes().conical_height[0])),
-    "HeldBranches": lambda: branches(BLADE),
-    "HeldBranch": lambda: branch(BLADE),
-    "HeldBranches of a cord": lambda: branches(ROPE),
-    "HeldBranch of a cord": lambda: branch(ROPE),
-    "HeldCordShape of a branch": lambda: branch(ROPE).shape(3),
-    "HeldCordShape of a mode": lambda: rc.steady_shape(ROPE, top_tension=20.0),
+    "Branches, held": lambda: branches(BLADE),
+    "Branch, held": lambda: branch(BLADE),
+    "Branches of a held cord": lambda: branches(ROPE),
+    "Branch of a held cord": lambda: branch(ROPE),
+    "SteadyShape of a branch of a held cord": lambda: branch(ROPE).shape(3),
+    "SteadyShape of a mode of a held cord": lambda: rc.steady_shape(ROPE, top_tension=20.0),
     "Modes of a cord of what is held": taut,
     "Modes of a cord without gravity": lambda: rc.modes(rc.Held(rc.Cord(1.0, mass=1.0), tension=20.0, weightless=True), 2),
     "Modes of a chain without gravity": lambda: rc.modes(rc.Held(THREE, tension=20.0, weightless=True), 2),
     "Sensitivity of a cord": lambda: taut().sensitivity,
     "Sensitivity, relative, of a cord": lambda: taut().sensitivity.relative,
     "Uncertainty of a cord": lambda: taut().uncertainty(mass="1 %", tension=0.3),
-    "HeldShape of a branch": lambda: branch(BLADE).shape(3),
-    "HeldShape of a mode": lambda: rc.steady_shape(BLADE, top_tension=20.0),
+    "SteadyShape of a branch, held": lambda: branch(BLADE).shape(3),
+    "SteadyShape of a mode, held": lambda: rc.steady_shape(BLADE, top_tension=20.0),
     "StabilityWindow": lambda: diagram()[0].stability_windows()[0],
     "Explanation": lambda: rc.explain(rc.Chain.uniform_rods(5000), 2, rtol=1e-3),
     "Stability": lambda: shapes()[0].stability(),
@@ -166,24 +166,24 @@ RESULTS = {  # every kind of result, made when a test asks for it
     "Modes of a cord of a density": lambda: rc.modes(rc.Cord(2.0, density=lambda s: 1 + s), 2),
     "Modes of a cord, none": lambda: rc.modes(rc.Cord(2.0), angular_speed=(0.5, 0.6)),
     "SteadyShapes of a cord": shapes_of_a_cord,
-    "CordShape": lambda: shapes_of_a_cord()[1],
-    "CordBranch": lambda: rc.branch(TIP, 2, min_conical_height=0.08),
-    "CordBranches": lambda: rc.branches(TIP, min_conical_height=0.08, lists=2),
-    "CordShape on a branch": lambda: rc.steady_shape(TIP, mode=2, tip_inclination=1.0),
+    "SteadyShape of a cord": lambda: shapes_of_a_cord()[1],
+    "Branch of a cord": lambda: rc.branch(TIP, 2, min_conical_height=0.08),
+    "Branches of a cord": lambda: rc.branches(TIP, min_conical_height=0.08),
+    "SteadyShape on a branch of a cord": lambda: rc.steady_shape(TIP, mode=2, lowest_inclination=1.0),
     "Swing of a rig": lambda: rc.swing(rc.Rig(CHAIN, support=rc.Support(stiffness=9.0)), [0.0, 1.0], offset=np.ones(CHAIN.size) / 9),
     "Swing that turns": lambda: rc.swing(WHEELS, [0.0, 1.0], offset=np.ones(CHAIN.size) * (0.1 + 0.05j)),
     "Swing of a cord": lambda: rc.swing(TIP, [0.0, 1.0], offset=[0.1, 0.0], count=8),
     "Stability of a cord": lambda: shapes_of_a_cord()[0].stability(),
     "Modes, taut": lambda: rc.modes(rc.Held(NAMED, tension=50.0)),
     "SteadyShapes, held": held_shapes,
-    "HeldShape": lambda: held_shapes()[0],
+    "SteadyShape, held": lambda: held_shapes()[0],
     "Sensitivity, held": lambda: held_shapes()[0].sensitivity,
     "Sensitivity of tensions, held": lambda: held_shapes()[0].sensitivity.tension,
     "SteadyShapes, on arms": lambda: rc.steady_shapes(
         rc.Held(rc.Chain.uniform_rods(6), span=0.5, **ARMS), angular_speed=9.0
     ),
-    "HeldShape, weightless": lambda: rc.steady_shapes(rc.Held(NAMED, span=0.5, weightless=True), angular_speed=9.0)[0],
-    "HeldCordShape": lambda: rc.steady_shapes(rc.Held(rc.Cord(1.0, mass=1.0), tension=26.0), conical_height=0.05)[0],
+    "SteadyShape, weightless": lambda: rc.steady_shapes(rc.Held(NAMED, span=0.5, weightless=True), angular_speed=9.0)[0],
+    "SteadyShape of a held cord": lambda: rc.steady_shapes(rc.Held(rc.Cord(1.0, mass=1.0), tension=26.0), conical_height=0.05)[0],
     "BufferImpact": lambda: rc.BufferImpact(**IMPACT),
     "GovernorMotion": lambda: rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5),
     "GovernorMotion, revolving": lambda: rc.GovernorMotion(
@@ -559,9 +559,45 @@ def test_threads_may_read_and_pickle_the_same_result():
     assert raised == []
 
 
-def test_shapes_of_a_branch_after_loading(tmp_path):
-    diagram = rc.branches(rc.Chain(weight=[1.0, 1.0, 1.0], length=1.0), max_angular_speed=5.0, gravity=1.0)
+ALONG_BRANCHES = {
+    "chain": THREE,
+    "rig": rc.Rig(rc.Chain(mass=[1.0, 2.0], length=1.0), support=rc.Support(stiffness=400.0, mass=0.5)),
+    "carousel": rc.Rig(rc.Chain(mass=80.0, length=4.0), support=rc.Support(radius=1.0)),
+    "cord": TIP,
+    "density": rc.Cord(1.0, density=lambda s: 1 + s),
+    "held": BLADE,
+    "arms": rc.Held(rc.Chain.uniform_rods(6), span=0.5, **ARMS),
+    "held cord": ROPE,
+}
+
+
+@pytest.mark.parametrize("system", ALONG_BRANCHES.values(), ids=ALONG_BRANCHES.keys())
+def test_shapes_of_a_branch_after_loading(tmp_path, system):
+    """They are computed from the numbers of the file, without following the branch again; all are the same."""
+    diagram = rc.branches(system, max_angular_speed=9.0, gravity=1.62)
     diagram.save(tmp_path / "branches.npz")
-    for again, branch in zip(rc.load(tmp_path / "branches.npz"), diagram, strict=True):
-        assert again.shape(-1) == branch.shape(-1) and again.at(angular_speed=4.5) == branch.at(angular_speed=4.5)
-        assert again.shape(-1).gravity == 1.0
+    loaded = rc.load(tmp_path / "branches.npz")
+    assert loaded == diagram and len(loaded)
+    for again, branch in zip(loaded, diagram, strict=True):
+        for point in {len(branch) - 1, len(branch) // 2, *branch.folds.tolist()}:
+            shape, same = branch.shape(point), again.shape(point)
+            assert same == shape and same.gravity == 1.62 and same.proved == shape.proved
+        if not isinstance(system, rc.Held):
+            assert again.at(angular_speed=8.0) == branch.at(angular_speed=8.0)
+        if isinstance(system, rc.Chain | rc.Rig):
+            assert again.stability_windows(samples=1) == branch.stability_windows(samples=1)
+
+
+@pytest.mark.parametrize("system", ALONG_BRANCHES.values(), ids=ALONG_BRANCHES.keys())
+def test_what_is_asked_of_a_loaded_shape(tmp_path, system):
+    shape = rc.steady_shapes(system, angular_speed=9.0, gravity=1.62)[0]
+    shape.save(tmp_path / "shape.npz")
+    same = rc.load(tmp_path / "shape.npz")
+    one, other = shape.stability(), same.stability()
+    assert one.verdict == other.verdict
+    np.testing.assert_allclose(one.exponents, other.exponents, rtol=0, atol=1e-9)
+    if hasattr(shape, "arc_length"):
+        for here, there in zip(shape.along([0.0, 0.3, 1.0]), same.along([0.0, 0.3, 1.0]), strict=True):
+            np.testing.assert_allclose(here, there, rtol=1e-14)
+    elif isinstance(system, rc.Chain):
+        assert shape.force_diagram() == same.force_diagram()

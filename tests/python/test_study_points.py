@@ -108,7 +108,6 @@ def of_modes(scene):
 
 def of_shapes(scene):
     shapes = scene.steady_shapes()
-    accuracy = "error_estimate" if "cord" in scene.to_dict() else "error_bound"
     return {
         "shapes": len(shapes),
         "shapes_complete": shapes.complete,
@@ -117,7 +116,7 @@ def of_shapes(scene):
         "top_inclination": [s.inclination[-1] for s in shapes],
         "free_end_offset": [s.offset[0] for s in shapes],
         "top_tension": [s.tension[-1] for s in shapes],
-        f"shape_{accuracy}": [getattr(s, accuracy) for s in shapes],
+        "shape_error_bound": [s.error_bound for s in shapes],
     }, shapes.complete
 
 

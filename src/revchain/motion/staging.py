@@ -11,14 +11,13 @@ from typing import Any
 
 import numpy as np
 
-from ..plots.branches import BY_WEIGHT, HELD_QUANTITIES, QUANTITIES
+from ..plots.branches import words_of
 from ..plots.modes import MOST_SHAPES, Straight, floating, rows_of
 from ..plots.style import MOST_PINS_AS_DOTS, thinned
 from ..results.branches import Branch, Branches
-from ..results.held_branches import HeldBranch, HeldBranches
 from ..results.modes import Modes
 from ..results.motions import Response, Swing
-from ..results.shapes import Shape, SteadyShapes
+from ..results.shapes import SteadyShape, SteadyShapes
 from ..results.sheet import digits
 from ..systems.numbers import Floats, listed, place_of
 from .film import Bodies, Chart, Complex, Figure, Film
@@ -94,7 +93,7 @@ def _(modes: Modes, asked: Asked) -> Film:
 
 
 @staged.register
-def _(shape: Shape, asked: Asked) -> Film:
+def _(shape: SteadyShape, asked: Asked) -> Film:
     asked.only_one()
     return _of_shapes([shape], shape, [""], asked)
 
@@ -110,7 +109,7 @@ def _of_shapes(shapes: Sequence[Any], of: Any, labels: list[str], asked: Asked) 
     for shape, label in zip(shapes, labels, strict=True):
         waves = f"{shape.half_waves} half wave{'s' * (shape.half_waves != 1)}"
         offset, height = _bent(shape)
-        speed = shape.angular_speed * getattr(shape, "direction", 1)
+        speed = shape.angular_speed * shape.direction
         named.append((f"{label}\n{waves}".strip(), offset, height, speed, 1.0))
     return _turning(of, named, asked)
 
@@ -119,7 +118,7 @@ def _bent(shape: Any) -> tuple[Floats, Floats]:
     """Offsets and heights of pins, or of places of a cord equally far apart."""
     if not hasattr(shape, "arc_length"):
         return shape.offset, shape.height
-    places = shape.at(np.linspace(0.0, shape.system.length, PLACES))
+    places = shape.along(np.linspace(0.0, shape.system.length, PLACES))
     return places.offset, places.height
 
 
@@ -157,22 +156,20 @@ def speed_words(speed: float) -> str:
 # ---- what changes along a branch, or with the speed
 
 
-@staged.register(Branch)
-@staged.register(HeldBranch)
-def _(branch: Any, asked: Asked) -> Film:
+@staged.register
+def _(branch: Branch, asked: Asked) -> Film:
     asked.only_one()
     return _of_branches([branch], branch, [""], asked)
 
 
-@staged.register(Branches)
-@staged.register(HeldBranches)
-def _(branches: Any, asked: Asked) -> Film:
+@staged.register
+def _(branches: Branches, asked: Asked) -> Film:
     places = asked.among(len(branches), "branch")
     return _of_branches([branches[k] for k in places], branches, [f"branch {k}" for k in places], asked)
 
 
 def _of_branches(branches: Sequence[Any], of: Any, labels: list[str], asked: Asked) -> Film:
-    quantity = "largest_offset" if isinstance(branches[0], HeldBranch) else "tip_radius"
+    quantity = "tip_radius" if hasattr(branches[0], "tip_radius") else "largest_offset"
     stages = []
     curves = []
     for branch in branches:
@@ -187,12 +184,10 @@ def _of_branches(branches: Sequence[Any], of: Any, labels: list[str], asked: Ask
         moved = np.hypot(np.diff(offset, axis=0), np.diff(height, axis=0)).max(axis=1) / np.ptp(height, axis=1).max()
         steps = moved + np.abs(np.diff(speed)) / speed.max()
         way = np.concatenate([[0.0], np.cumsum(steps)])
-        stages.append(_Stages(way, offset + 0j, height, speed * getattr(branch, "direction", 1), np.ones(speed.size)))
+        stages.append(_Stages(way, offset + 0j, height, speed * branch.direction, np.ones(speed.size)))
         curves.append(getattr(branch, quantity)[kept])
-    words = QUANTITIES | HELD_QUANTITIES
-    if not branches[0].system.by_mass:
-        words = words | BY_WEIGHT
-    return _swept(of, labels, stages, asked, words[quantity], curves, "Along branch")
+    words = words_of(quantity, branches[0].system.by_mass)
+    return _swept(of, labels, stages, asked, words, curves, "Along branch")
 
 
 def _stages(count: int, folds: Any) -> Any:

@@ -20,9 +20,9 @@ from ..systems.held import Held
 from ..systems.numbers import STANDARD_GRAVITY, count, exactly_one, height_of, one_positive, real, shown
 from ..systems.rig import Rig
 from ..systems.system import System
-from .held import held_shape
 from .modes import modes, straight
 from .refuse import no_system
+from .shapes import shape_on_branch
 from .speeds import speeds
 
 _PLACE = "revchain.tune"
@@ -277,7 +277,7 @@ def _formed(rig: Rig, datum: Datum, mode: int, speed: float, gravity: float) -> 
 
 def _speed_under(held: Held, mode: int, tension: float, gravity: float) -> tuple[float, float]:
     """The speed at which the branch of a mode has a tension, and the estimate of its relative error."""
-    shape = held_shape(_PLACE, held, mode, "top_tension", tension, gravity, False)
+    shape = shape_on_branch(_PLACE, held, mode, "top_tension", tension, gravity)
     return shape.angular_speed, 1e-13 if held.size else 1e-11
 
 

@@ -35,14 +35,15 @@ class Field(Generic[Value]):
     otherwise : callable, optional
         Function of the result for what its compiled result does not have.
     heading : str or callable
-        Heading of the column, or a function of the result that returns it; the unit is added unless it ends with ")".
+        Heading of the column, to which the unit is added unless it ends with ")"; or a function of the result that returns
+        it, empty if the column is not printed.
     unit : str
         Unit of the numbers. Angles (``"rad"``) are printed in degrees. ``"force"`` is N for a system given by mass, else
         the unit of its weights, which is unknown.
     digits : int
         Number of significant digits in printed tables.
     axes : tuple of str, optional
-        Names of the axes after the first, which counts the rows.
+        Names of the axes after the first, which counts the rows; or a function of the result that returns them.
     shown : callable, optional
         Function of the result that returns what is printed instead, such as words.
     joined : bool
@@ -63,7 +64,7 @@ class Field(Generic[Value]):
         heading: str | Callable[[Any], str] | None = None,
         unit: str = "",
         digits: int = 6,
-        axes: tuple[str, ...] | None = None,
+        axes: tuple[str, ...] | Callable[[Any], tuple[str, ...]] | None = None,
         shown: Callable[[Any], Any] | None = None,
         fact: bool = False,
         joined: bool = False,
@@ -92,10 +93,12 @@ class Field(Generic[Value]):
             found = self.compute(result)
         else:
             core = result.__dict__["_core"] or result._found()
-            if self.otherwise is None or hasattr(core, self.name):
+            if hasattr(core, self.name):
                 found = getattr(core, self.name)
-            else:
+            elif self.otherwise is not None:
                 found = self.otherwise(result)
+            else:  # the compiled result of this kind of system has no such number
+                raise UnavailableError(_not_there(result, self.name))
         if type(found) is np.ndarray:
             found.flags.writeable = False
         elif type(found) is list or (type(found) is tuple and self.compute is not None):
@@ -113,7 +116,8 @@ class Field(Generic[Value]):
             heading, shown = f"{heading} (°)", np.degrees(values) if shown is None else shown
         elif heading and unit and heading[-1] != ")":
             heading = f"{heading} ({unit})"
-        data = (self.key or self.name, values, heading, self.digits, self.axes or (), shown, self.left, unit)
+        axes = self.axes(result) if callable(self.axes) else self.axes or ()
+        data = (self.key or self.name, values, heading, self.digits, axes, shown, self.left, unit)
         return tuple.__new__(Column, data)  # Column(...) would take a call more
 
 
@@ -210,7 +214,7 @@ class Result(Unchangeable):
 
     def _state(self) -> dict[str, Any]:
         """All parts, and the other fields computed so far."""
-        parts = {name: getattr(self, name) for name, field in self._fields.items() if field.part}
+        parts = {name: getattr(self, name) for name, field in self._fields.items() if field.part and hasattr(self, name)}
         return parts | {name: value for name, value in dict(self.__dict__).items() if name in self._fields}
 
     def to_dict(self) -> dict[str, Any]:
@@ -310,7 +314,9 @@ class Result(Unchangeable):
         if type(other) is not type(self):
             return NotImplemented
         return all(
-            same(getattr(self, name), getattr(other, name)) for name, field in self._fields.items() if field.part
+            same(getattr(self, name, None), getattr(other, name, None))
+            for name, field in self._fields.items()
+            if field.part
         )
 
     __hash__ = None  # type: ignore[assignment]
@@ -382,6 +388,12 @@ class _Words:
 
     def __getitem__(self, name: str) -> Any:
         return getattr(self.result, name)
+
+
+def _not_there(result: Any, name: str) -> str:
+    """The sentence about a field that a result of this kind of system does not have."""
+    system = type(result.system).__name__ if "system" in result.__dict__ else "result of this kind"
+    return f"revchain.{type(result).__name__}.{name}: a {system} does not have it"
 
 
 _HOLD = (np.ndarray, list, tuple, dict)  # types that may hold writable arrays

@@ -13,7 +13,7 @@ from .sensitivity import Sensitivity
 from .shape_sensitivity import PARTS, Balance, Change, by_weight, changes_of, loads_of, named, of_shape, reach_of_pins, solved
 
 if TYPE_CHECKING:
-    from .bent import HeldShape
+    from .shapes import SteadyShape
 
 OF_ENDS = tuple(f"{end}_{name}" for end in ("lower", "upper") for name in ("radius", "stiffness", "mass"))
 
@@ -33,7 +33,7 @@ class _HeldChain:
     The unknowns are the inclinations, the offset y of the upper end, X and Z.
     """
 
-    def __init__(self, shape: HeldShape) -> None:
+    def __init__(self, shape: SteadyShape) -> None:
         held = shape.system
         chain = held.system
         n = chain.size
@@ -119,11 +119,11 @@ class _HeldChain:
         return loads
 
 
-def held_shape_sensitivity(shape: HeldShape) -> Sensitivity:
-    """See `HeldShape.sensitivity`."""
+def held_shape_sensitivity(shape: SteadyShape) -> Sensitivity:
+    """See `SteadyShape.sensitivity`."""
     chain = _HeldChain(shape)
     at, n = chain.hanging, chain.hanging.size
-    refuse_beyond_memory("revchain.HeldShape.sensitivity", "the number of links", n, 120 * n)
+    refuse_beyond_memory("revchain.SteadyShape.sensitivity", "the number of links", n, 120 * n)
     changes = chain.changes()
     moved = solved(chain.slope(), chain.loads(changes))
 
@@ -150,7 +150,7 @@ def held_shape_sensitivity(shape: HeldShape) -> Sensitivity:
     return of_shape(n, [found[part] for part in PARTS])
 
 
-def _hold(shape: HeldShape, found: dict[str, dict[str, Floats]]) -> None:
+def _hold(shape: SteadyShape, found: dict[str, dict[str, Floats]]) -> None:
     """Make the derivatives those at constant tension if the tension was given; mark the other datum of the ends NaN."""
     if shape.system.tension is None:
         for by in found.values():

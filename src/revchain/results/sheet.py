@@ -230,7 +230,7 @@ def as_dataset(sheet: Sheet) -> Dataset:
         for column in sheet.columns
         if column.name != sheet.row
     }
-    coordinates = {column.name: column.values for column in sheet.columns if column.name == sheet.row}
+    coordinates = {column.name: np.asarray(column.values) for column in sheet.columns if column.name == sheet.row}
     for name, value in sheet.facts.items():
         if isinstance(value, np.ndarray):
             variables[name] = tuple(f"{name}_axis_{k}" for k in range(value.ndim)), value, {}

@@ -514,6 +514,11 @@ class Chain(System):
     def _under(self, gravity: float) -> _core.Chain:
         return self._compiled
 
+    @property
+    def _total(self) -> float:
+        """Mass or weight of the whole chain, as given."""
+        return self._compiled.total_weight
+
     def _state(self) -> tuple[Any, ...]:
         """The numbers and arrays that make up the chain."""
         return self._compiled.__getstate__(), self.by_mass, self._names

@@ -213,6 +213,11 @@ class Cord(System):
     def _under(self, gravity: float) -> _core.Cord:
         return self._compiled
 
+    @property
+    def _total(self) -> float:
+        """Mass or weight of cord and tip, as given."""
+        return self._compiled.weight + self._compiled.tip_weight
+
     def _state(self) -> tuple[Any, ...]:
         kept = self._function if isinstance(self._function, float) else self._function.__getstate__()
         return self.length, self._compiled.weight, self._compiled.tip_weight, kept, self.by_mass

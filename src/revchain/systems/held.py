@@ -172,6 +172,10 @@ class Held(System):
     def _force(self, gravity: float) -> float:
         return 1.0 if self.weightless else self.system._force(gravity)
 
+    def _force_in_shape(self, gravity: float, conical_height: float, angular_speed: float) -> float:
+        """The same; the forces of compiled shapes are multiplied by the conical height."""
+        return angular_speed**2 if self.weightless else self._force(gravity) / conical_height
+
     def _pull(self, gravity: float) -> tuple[float, float] | None:
         """Tension, and its unit over that of the compiled system's forces."""
         return None if self.tension is None else (self.tension, self._force(gravity))

@@ -503,6 +503,9 @@ class Rig(System):
         only = (kept[0], kept[1], kept[2], kept[3])
         return _core.rig_modes(rig, first, many, None, None, modes.rtol, certified, modes.gravity, kept=only)
 
+    def _momentum_of_wheels(self, gravity: float, inclination: Any) -> float:
+        return self._force(gravity) * float(np.sum(self._momentum(gravity) * np.cos(inclination)))
+
     def _under(self, gravity: float) -> _core.Rig:
         at = self._at  # of two threads each sees one pair
         if at[0] == gravity or not self._needs_gravity():

@@ -93,6 +93,14 @@ class System(Unchangeable):
         """The compiled modes with the numbers of modes that were loaded."""
         raise NotImplementedError
 
+    def _force_in_shape(self, gravity: float, conical_height: float, angular_speed: float) -> float:
+        """Factor that turns a force of a compiled steady shape into a force of the results."""
+        return self._force(gravity)
+
+    def _momentum_of_wheels(self, gravity: float, inclination: Any) -> float:
+        """Angular momentum of flywheels about the axis while the links are inclined."""
+        return 0.0
+
     def _state(self) -> tuple[Any, ...]:
         """The numbers, words, arrays and systems that make up the system."""
         raise NotImplementedError
