@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Collection, Iterator, Sequence
+from itertools import repeat
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, Self, TypeVar, overload
 
 import numpy as np
@@ -208,7 +209,7 @@ class Result(Unchangeable):
             elif field.fact:
                 facts[field.key or name] = as_rows(value._sheet()) if isinstance(value, Result) else value
         words = _Words(self)
-        notes = [line for note in self._notes for line in note.format_map(words).splitlines()]
+        notes = "\n".join(map(str.format_map, self._notes, repeat(words))).splitlines()
         title = self._title.format_map(words)
         return Sheet(self._row, title, columns, facts, notes, self._is_good(), self._spread)
 

@@ -146,7 +146,7 @@ def _of_height(name: str, of_speed: Callable[[Any], Any]) -> Callable[[Modes], N
 
 def _nodes(modes: Modes, name: str = "nodes") -> Any:
     """The places of each mode; of a cord they take memory in proportion to the number of the mode."""
-    if len(modes) and modes.system._kind.endswith("cord"):
+    if modes.number.size and modes.system._kind.endswith("cord"):
         refuse_beyond_memory(f"revchain.Modes.{name}", "the number of the last mode", int(modes.number[-1]), 8)
     return getattr(modes._found(), name)
 
@@ -266,7 +266,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
     )
     nodes: Field[tuple[Numbers, ...]] = Field(
         "For each mode, the distances from the free end along the chain at which it crosses the axis, excluding the support.",
-        lambda m: _nodes(m),
+        _nodes,
         axes=("node",),
         unit="m",
         heading=lambda m: f"nodes (m from the {'lower' if m.system._kind.startswith('held') else 'free'} end)",

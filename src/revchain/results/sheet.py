@@ -122,27 +122,29 @@ def digits(number: float, count: int) -> str:
 
 def cells(sheet: Sheet) -> tuple[list[str], list[list[str]], list[str]]:
     """Headings, the printed rows as text, and the lines below."""
-    shown = [column for column in sheet.columns if column.heading]
-    if not shown:
-        return [], [], sheet.notes
     size = len(sheet)
     rows: Any = range(size)
     if size > MOST_ROWS:
         rows = np.linspace(0, size - 1, MOST_ROWS).round().astype(int).tolist() if sheet.spread else range(MOST_ROWS)
-    table = [*map(list, zip(*[column.texts(rows) for column in shown], strict=True))]
+    headings, columns = [], []
+    for column in sheet.columns:
+        if column.heading:
+            headings.append(column.heading)
+            columns.append(column.texts(rows))
+    if not headings:
+        return [], [], sheet.notes
     notes = [f"and {size - MOST_ROWS:,} more", *sheet.notes] if size > MOST_ROWS else sheet.notes
-    return [column.heading for column in shown], table, notes
+    return headings, [*map(list, zip(*columns, strict=True))], notes
 
 
 def as_text(sheet: Sheet) -> str:
     """The table that a prompt shows."""
     headings, rows, notes = cells(sheet)
-    if not rows:
-        return "\n".join([sheet.heading, *notes])
-    left = [column.left for column in sheet.columns if column.heading]
-    padded = []
-    for column, words in zip(zip(headings, *rows, strict=True), left, strict=True):
-        padded.append([*map(str.ljust if words else str.rjust, column, repeat(max(map(len, column))))])
+    padded, table = [], zip(headings, *rows, strict=True)
+    for column in sheet.columns if rows else []:
+        if column.heading:
+            cells_of = next(table)
+            padded.append([*map(str.ljust if column.left else str.rjust, cells_of, repeat(max(map(len, cells_of))))])
     lines = map(str.rstrip, map("  ".join, zip(*padded, strict=True)))
     return "\n".join([sheet.heading, *lines, *notes])
 
