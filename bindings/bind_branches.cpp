@@ -2,26 +2,21 @@
 #include "bindings.hpp"
 #include "interrupt.hpp"
 #include "revchain/branches.hpp"
+#include "revchain/finite/branch/onset.hpp"
 #include "revchain/stability_windows.hpp"
+#include "shapes.hpp"
 
 namespace {
 
 using Chain = revchain::Chain<double>;
 using revchain::Branch;
-using revchain::Branches;
+using revchain::BranchBirth;
 using revchain::Index;
-
-py::array numbers(const std::vector<double>& values) {
-    return frozen(py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data()));
-}
-
-template <class Whole>
-py::array whole_numbers(const std::vector<Whole>& values) {
-    py::array_t<std::int64_t> result(static_cast<py::ssize_t>(values.size()));
-    std::transform(values.begin(), values.end(), result.mutable_data(),
-                   [](Whole x) { return static_cast<std::int64_t>(x); });
-    return frozen(std::move(result));
-}
+using revchain::finite::BranchPoint;
+using revchain::finite::BranchRoot;
+using revchain::finite::BranchState;
+using revchain::finite::BranchSystem;
+using revchain::finite::trace_of;
 
 /// The options of a question about a chain, or of the same about a rig, which has a direction of rotation.
 template <class System, class OfChain, class OfRig>
@@ -37,17 +32,65 @@ template <class System>
 auto given(Index mode, const std::string& name, double value, double gravity, int direction,
            std::optional<double> lowest) {
     using Options = For<System, revchain::OnBranchOptions, revchain::RigOnBranchOptions>;
-    Options result = turning(Options{.mode = mode, .gravity = gravity, .min_conical_height = lowest}, direction);
-    if (name == "conical_height") result.conical_height = value;
-    if (name == "angular_speed") result.angular_speed = value;
-    if (name == "tip_inclination") result.tip_inclination = value;
-    if (name == "tip_radius") result.tip_radius = value;
-    if (name == "top_tension") result.top_tension = value;
-    return result;
+    return selected(turning(Options{.mode = mode, .gravity = gravity, .min_conical_height = lowest}, direction), name,
+                    value);
 }
 
 const Chain& chain_of(const Chain& chain) { return chain; }
 const Chain& chain_of(const revchain::Rig& rig) { return rig.chain(); }
+
+/// The states and tangents of the points: tau of each link and log of the height, both twice.
+py::array points_of(const Branch& branch) {
+    const auto& points = trace_of(branch).points;
+    const auto size = points.empty() ? 0 : static_cast<Index>(points.front().state.rise.size());
+    revchain::Table<double> table(static_cast<Index>(points.size()), 2 * size + 2);
+    double* to = table.data();
+    for (const BranchPoint& point : points)
+        for (const BranchState* of : {&point.state, &point.tangent}) {
+            to = std::copy(of->rise.begin(), of->rise.end(), to);
+            *to++ = of->log_height;
+        }
+    return to_numpy(table);
+}
+
+/// The branch of a file, with which further shapes are computed.
+template <class System>
+Branch branch_from(const System& system, Index mode, const std::string& birth, const Array& arc, const Array& height,
+                   const Array& half_waves, const Array& folds, const Array& points, double gravity, int direction) {
+    Branch branch;
+    set_columns(branch, arc, height, half_waves, folds);
+    branch.mode = mode;
+    for (const BranchBirth each : {BranchBirth::vertical, BranchBirth::rest, BranchBirth::fold})
+        if (birth == to_string(each)) branch.birth = each;
+    auto& trace = trace_of(branch);
+    if (branch.birth == BranchBirth::fold) {
+        if constexpr (std::is_same_v<System, Chain>)
+            trace.system = std::make_shared<const BranchSystem>(system);
+        else
+            trace.system = std::make_shared<const BranchSystem>(system, gravity, rotation(direction));
+    } else {
+        using Options = For<System, revchain::BranchOptions, revchain::RigBranchOptions>;
+        BranchRoot root =
+            BranchRoot::of("Branch", system, turning(Options{.mode = mode, .gravity = gravity}, direction));
+        trace.system = root.system;
+        if (root.onset)
+            trace.onset = std::make_shared<const revchain::finite::BranchOnset>(std::move(*root.onset));
+    }
+    if (points.ndim() != 2 || points.shape(0) != arc.size())
+        revchain::detail::throw_invalid("Branch", "this is not the state of a branch");
+    const double* from = points.data();
+    const py::ssize_t size = points.shape(1) / 2 - 1;
+    for (std::size_t i = 0; i < branch.size(); ++i) {
+        BranchPoint point;
+        for (BranchState* of : {&point.state, &point.tangent}) {
+            of->rise.assign(from, from + size);
+            of->log_height = from[size], from += size + 1;
+        }
+        point.arc = branch.arc[i], point.half_waves = branch.half_waves[i];
+        trace.points.push_back(std::move(point));
+    }
+    return branch;
+}
 
 /// The questions about branches of one kind of system.
 template <class System>
@@ -80,30 +123,18 @@ void def_branches(py::module_& module) {
             return revchain::branches(system, turning(options, direction));
         },
         "system"_a, "height"_a, "lists"_a, "budget"_a, "proof_budget"_a, "gravity"_a, "direction"_a);
-    module.def(
-        "shapes_on_branch",
-        [](const System& system, Index mode, const std::string& name, double value, double gravity, int direction,
-           std::optional<double> min_conical_height) {
-            const py::gil_scoped_release release;
-            const auto options = given<System>(mode, name, value, gravity, direction, min_conical_height);
-            return revchain::shapes_on_branch(system, options).shapes;
-        },
-        "system"_a, "mode"_a, "name"_a, "value"_a, "gravity"_a, "direction"_a, "min_conical_height"_a);
-    module.def(
-        "steady_shape",
-        [](const System& system, Index mode, const std::string& name, double value, double gravity, int direction,
-           std::optional<double> min_conical_height) {
-            const py::gil_scoped_release release;
-            const auto options = given<System>(mode, name, value, gravity, direction, min_conical_height);
-            return revchain::steady_shape(system, options);
-        },
-        "system"_a, "mode"_a, "name"_a, "value"_a, "gravity"_a, "direction"_a, "min_conical_height"_a);
+    def_on_branch<System>(module, "shapes_on_branch", [](const System& system, auto... wanted) {
+        return revchain::shapes_on_branch(system, given<System>(wanted...)).shapes;
+    });
+    def_on_branch<System>(module, "steady_shape", [](const System& system, auto... wanted) {
+        return revchain::steady_shape(system, given<System>(wanted...));
+    });
+    module.def("branch_from", &branch_from<System>, "system"_a, "mode"_a, "birth"_a, "arc"_a, "conical_height"_a,
+               "half_waves"_a, "folds"_a, "points"_a, "gravity"_a, "direction"_a);
     module.def(
         "stability_windows",
         [](const System& system, const Branch& branch, bool driven, double tolerance, int samples) {
-            using revchain::StabilityFrame;
-            const revchain::StabilityWindowsOptions options{driven ? StabilityFrame::driven : StabilityFrame::free,
-                                                            tolerance, samples};
+            const revchain::StabilityWindowsOptions options{frame(driven), tolerance, samples};
             const auto found = aside(chain_of(system), nullptr, [system, branch, options](const Chain&) {
                 return revchain::stability_windows(system, branch, options);
             });
@@ -119,30 +150,10 @@ void def_branches(py::module_& module) {
 }  // namespace
 
 void bind_branches(py::module_& module) {
-    const auto column = [](std::vector<double> Branch::*member) {
-        return [member](const Branch& branch) { return numbers(branch.*member); };
-    };
-    py::class_<Branch>(module, "Branch", "A branch of steady shapes, point by point.")
-        .def_readonly("mode", &Branch::mode)
+    bind_branch<Branch>(module, "Branch")
         .def_property_readonly("birth", [](const Branch& b) { return std::string(to_string(b.birth)); })
-        .def_property_readonly("arc", column(&Branch::arc))
-        .def_property_readonly("conical_height", column(&Branch::conical_height))
-        .def_property_readonly("tip_inclination", column(&Branch::tip_inclination))
-        .def_property_readonly("tip_radius", column(&Branch::tip_radius))
-        .def_property_readonly("top_tension", column(&Branch::top_tension))
-        .def_property_readonly("moment_of_inertia", column(&Branch::moment_of_inertia))
-        .def_property_readonly("effective_energy", column(&Branch::effective_energy))
-        .def_property_readonly("half_waves", [](const Branch& b) { return whole_numbers(b.half_waves); })
-        .def_property_readonly("folds", [](const Branch& b) { return whole_numbers(b.folds); })
-        .def_property_readonly("end", [](const Branch& b) { return std::string(to_string(b.end)); })
-        .def("shape", &Branch::shape, "point"_a)
-        .def("states_at", &Branch::shapes_at, "height"_a);
-    py::class_<Branches>(module, "Branches", "All branches found above one conical height.")
-        .def_readonly("branches", &Branches::branches)
-        .def_readonly("consistent", &Branches::consistent)
-        .def_readonly("complete", &Branches::complete)
-        .def_property_readonly("looked_at", [](const Branches& b) { return numbers(b.looked_at); })
-        .def_readonly("remark", &Branches::remark);
+        .def_property_readonly("points", &points_of);
+    bind_diagram<revchain::Branches>(module, "Branches");
     def_branches<Chain>(module);
     def_branches<revchain::Rig>(module);
 }

@@ -7,6 +7,7 @@
 #include "bindings.hpp"
 #include "interrupt.hpp"
 #include "revchain/cord.hpp"
+#include "shapes.hpp"
 
 #include <pybind11/functional.h>
 
@@ -14,7 +15,7 @@ namespace {
 
 using revchain::Cord;
 using revchain::CordShape;
-using revchain::CordShapes;
+using revchain::Index;
 using revchain::LineDensity;
 using revchain::Vector;
 using Density = std::variant<double, std::shared_ptr<LineDensity>>;
@@ -56,12 +57,35 @@ Cord cord_of(double length, std::optional<double> weight, const Density& density
     return Cord(length, options);
 }
 
+/// The steps of the path of a shape, and a last row: free end, support (arc, height), tip and unit of `finite::PathKind`.
+py::array path_of(const CordShape& shape) {
+    revchain::Table<double> table(static_cast<Index>(shape.steps.size()) + 1, 5);
+    Index i = 0;
+    for (const auto& [x, duration] : shape.steps) table.row(i++) << x.arc, x.offset, x.pull, x.height, duration;
+    table.row(i) << shape.tip_offset, shape.support_arc, shape.support_height, shape.kind.tip, shape.kind.unit;
+    return to_numpy(table);
+}
+
+void set_path(CordShape& shape, const Array& table) {
+    if (table.size() < 5 || table.size() % 5 != 0)
+        revchain::detail::throw_invalid("SteadyShape", "this is not the path of a shape");
+    const double *x = table.data(), *last = x + table.size() - 5;
+    shape.steps.clear();
+    for (; x != last; x += 5) shape.steps.push_back({{x[0], x[1], x[2], x[3]}, x[4]});
+    shape.tip_offset = x[0], shape.support_arc = x[1], shape.support_height = x[2];
+    shape.kind.tip = x[3], shape.kind.unit = x[4];
+}
+
+CordShape blank_shape(const Cord& cord) {
+    CordShape shape;
+    shape.length = cord.length(), shape.density = cord.line_density();
+    shape.kind = revchain::finite::kind_of(revchain::finite::ContinuousChain(cord), 1.0, 1.0);
+    return shape;
+}
+
 }  // namespace
 
 void bind_cord(py::module_& module) {
-    const auto column = [](Vector<double> CordShape::*member) {
-        return [member](const CordShape& shape) { return to_numpy(shape.*member); };
-    };
     py::class_<LineDensity, std::shared_ptr<LineDensity>>(module, "LineDensity", "Weight per length, as polynomials.")
         .def(py::init<const std::function<double(double)>&, double>(), "weight_per_length"_a, "length"_a)
         .def(
@@ -73,20 +97,12 @@ void bind_cord(py::module_& module) {
         .def_property_readonly("length", &Cord::length)
         .def_property_readonly("weight", &Cord::weight)
         .def_property_readonly("tip_weight", &Cord::tip_weight);
-    py::class_<CordShape>(module, "CordShape", "A steady shape of a whirling cord.")
-        .def_property_readonly("arc_length", column(&CordShape::arc_length))
-        .def_property_readonly("offset", column(&CordShape::offset))
-        .def_property_readonly("height", column(&CordShape::height))
-        .def_property_readonly("inclination", column(&CordShape::inclination))
-        .def_property_readonly("tension", column(&CordShape::tension))
-        .def_readonly("half_waves", &CordShape::half_waves)
-        .def_readonly("length", &CordShape::length)
-        .def_readonly("conical_height", &CordShape::conical_height)
-        .def_readonly("residual", &CordShape::residual)
-        .def_readonly("error_bound", &CordShape::error_bound)
-        .def_readonly("condition", &CordShape::condition)
+    auto shapes = bind_shape<CordShape>(module, "CordShape", "A steady shape of a whirling cord.");
+    def_column(shapes, "arc_length", &CordShape::arc_length);
+    def_column(shapes, "tension", &CordShape::tension);
+    shapes.def_property("path", &path_of, &set_path)
         .def(
-            "at",
+            "along",
             [](const CordShape& shape, const Array& arc) {
                 return columns<4>(
                     [&](double s) {
@@ -96,21 +112,14 @@ void bind_cord(py::module_& module) {
                     arc);
             },
             "arc"_a);
-    py::class_<CordShapes>(module, "CordShapes", "The steady shapes of a cord.")
-        .def_readonly("shapes", &CordShapes::shapes)
-        .def_readonly("complete", &CordShapes::complete);
-    module.def(
-        "cord_shapes",
-        [](const Cord& cord, double height, int scanned) {
-            const py::gil_scoped_release release;
-            return revchain::steady_shapes(cord, {.conical_height = height, .scanned = scanned});
-        },
-        "cord"_a, "height"_a, "scanned"_a);
-    module.def(
-        "cord_stability",
-        [](const Cord& cord, const revchain::CordShape& shape, bool driven) {
-            const auto frame = driven ? revchain::StabilityFrame::driven : revchain::StabilityFrame::free;
-            return aside(nullptr, [=] { return revchain::stability(cord, shape, frame); });
-        },
-        "cord"_a, "shape"_a, "driven"_a);
+    module.def("blank_shape", &blank_shape, "system"_a);
+    bind_shapes<revchain::CordShapes>(module, "CordShapes");
+    def_steady_shapes<Cord>(module, [](const Cord& cord, const AtSpeed& at) {
+        return revchain::steady_shapes(
+            cord, {.conical_height = *at.conical_height, .scanned = static_cast<int>(at.budget)});
+    });
+    def_stability<Cord, CordShape>(
+        module, [](const Cord& cord, const CordShape& shape, revchain::StabilityFrame in, int, double) {
+            return aside(nullptr, [=] { return revchain::stability(cord, shape, in); });
+        });
 }

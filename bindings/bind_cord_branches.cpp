@@ -1,84 +1,74 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <optional>
-
 #include "bindings.hpp"
 #include "revchain/cord.hpp"
+#include "shapes.hpp"
 
 namespace {
 
 using revchain::Cord;
 using revchain::CordBranch;
-using revchain::CordBranches;
 using revchain::Index;
+using Point = revchain::finite::BranchLine::Point;
 
-template <class To, class From>
-py::array array_of(const std::vector<From>& values) {
-    py::array_t<To> result(static_cast<py::ssize_t>(values.size()));
-    std::transform(values.begin(), values.end(), result.mutable_data(), [](From x) { return static_cast<To>(x); });
-    return frozen(std::move(result));
+revchain::OnBranchOptions on_branch(Index mode, const std::string& name, double value, double gravity, int,
+                                    std::optional<double> lowest) {
+    return selected(revchain::OnBranchOptions{.mode = mode, .gravity = gravity, .min_conical_height = lowest}, name,
+                    value);
 }
 
-std::vector<revchain::CordShape> on_branch(const Cord& cord, Index mode, const std::string& name, double value,
-                                           double gravity, std::optional<double> lowest, bool all) {
-    const py::gil_scoped_release release;
-    revchain::OnBranchOptions options{.mode = mode, .gravity = gravity, .min_conical_height = lowest};
-    if (name == "conical_height") options.conical_height = value;
-    if (name == "angular_speed") options.angular_speed = value;
-    if (name == "tip_inclination") options.tip_inclination = value;
-    if (name == "tip_radius") options.tip_radius = value;
-    if (name == "top_tension") options.top_tension = value;
-    if (all) return revchain::shapes_on_branch(cord, options).shapes;
-    return {revchain::steady_shape(cord, options)};
+/// Place and direction, each as bend and log of the height, and the two other numbers of each point.
+py::array line_points(const CordBranch& branch) {
+    revchain::Table<double> table(static_cast<Index>(branch.points.size()), 6);
+    double* to = table.data();
+    for (const Point& p : branch.points)
+        for (const double x :
+             {p.at.bend, p.at.log_height, p.direction.bend, p.direction.log_height, p.rate, p.off})
+            *to++ = x;
+    return to_numpy(table);
+}
+
+/// The branch of a file, with which further shapes are computed.
+CordBranch cord_branch_from(const Cord& cord, Index mode, const std::string&, const Array& arc, const Array& height,
+                            const Array& half_waves, const Array& folds, const Array& points, double, int) {
+    CordBranch branch;
+    set_columns(branch, arc, height, half_waves, folds);
+    branch.mode = mode;
+    if (points.ndim() != 2 || points.shape(1) != 6 || points.shape(0) != arc.size() || arc.size() == 0)
+        revchain::detail::throw_invalid("Branch", "this is not the state of a branch");
+    branch.line = std::make_shared<const revchain::finite::BranchLine>(cord, branch.half_waves.front());
+    for (const double* p = points.data(); p != points.data() + points.size(); p += 6)
+        branch.points.push_back({{p[0], p[1]}, {p[2], p[3]}, p[4], p[5]});
+    return branch;
 }
 
 }  // namespace
 
 void bind_cord_branches(py::module_& module) {
-    const auto column = [](std::vector<double> CordBranch::*member) {
-        return [member](const CordBranch& branch) { return array_of<double>(branch.*member); };
-    };
-    py::class_<CordBranch>(module, "CordBranch", "A branch of steady shapes of a cord, point by point.")
-        .def_readonly("mode", &CordBranch::mode)
-        .def_property_readonly("arc", column(&CordBranch::arc))
-        .def_property_readonly("conical_height", column(&CordBranch::conical_height))
-        .def_property_readonly("tip_inclination", column(&CordBranch::tip_inclination))
-        .def_property_readonly("tip_radius", column(&CordBranch::tip_radius))
-        .def_property_readonly("top_tension", column(&CordBranch::top_tension))
-        .def_property_readonly("moment_of_inertia", column(&CordBranch::moment_of_inertia))
-        .def_property_readonly("effective_energy", column(&CordBranch::effective_energy))
-        .def_property_readonly("half_waves", [](const CordBranch& b) { return array_of<std::int64_t>(b.half_waves); })
-        .def_property_readonly("folds", [](const CordBranch& b) { return array_of<std::int64_t>(b.folds); })
-        .def_property_readonly("end", [](const CordBranch& b) { return std::string(to_string(b.end)); })
-        .def("shape", &CordBranch::shape, "point"_a)
-        .def("shapes_at", &CordBranch::shapes_at, "height"_a);
-    py::class_<CordBranches>(module, "CordBranches", "All branches of a cord found above one conical height.")
-        .def_readonly("branches", &CordBranches::branches)
-        .def_readonly("consistent", &CordBranches::consistent)
-        .def_readonly("complete", &CordBranches::complete)
-        .def_property_readonly("looked_at", [](const CordBranches& b) { return array_of<double>(b.looked_at); })
-        .def_readonly("remark", &CordBranches::remark);
+    bind_branch<CordBranch>(module, "CordBranch")
+        .def_property_readonly("birth", [](const CordBranch& b) { return b.mode == 0 ? "fold" : "vertical"; })
+        .def_property_readonly("points", &line_points);
+    bind_diagram<revchain::CordBranches>(module, "CordBranches");
     module.def(
-        "cord_branch",
-        [](const Cord& cord, Index mode, double height, std::size_t max_points, double max_step) {
+        "branch",
+        [](const Cord& cord, Index mode, double height, std::size_t max_points, double max_step, double, int) {
             const py::gil_scoped_release release;
             return revchain::branch(
                 cord, {.mode = mode, .min_conical_height = height, .max_points = max_points, .max_step = max_step});
         },
-        "cord"_a, "mode"_a, "height"_a, "max_points"_a, "max_step"_a);
+        "system"_a, "mode"_a, "height"_a, "max_points"_a, "max_step"_a, "gravity"_a, "direction"_a);
     module.def(
-        "cord_branches",
-        [](const Cord& cord, double height, int lists) {
+        "branches",
+        [](const Cord& cord, double height, int lists, long, long, double, int) {
             const py::gil_scoped_release release;
             return revchain::branches(cord, {.min_conical_height = height, .lists = lists});
         },
-        "cord"_a, "height"_a, "lists"_a);
-    module.def("cord_shapes_on_branch", &on_branch, "cord"_a, "mode"_a, "name"_a, "value"_a, "gravity"_a,
-               "min_conical_height"_a, "all"_a);
-    module.def(
-        "cord_shape_near",
-        [](const Cord& cord, double height, int half_waves, double tip_offset, bool at_fold) {
-            const py::gil_scoped_release release;
-            return revchain::finite::shape_near(cord, height, half_waves, tip_offset, at_fold);
-        },
-        "cord"_a, "height"_a, "half_waves"_a, "tip_offset"_a, "at_fold"_a);
+        "system"_a, "height"_a, "lists"_a, "budget"_a, "proof_budget"_a, "gravity"_a, "direction"_a);
+    def_on_branch<Cord>(module, "shapes_on_branch", [](const Cord& cord, auto... wanted) {
+        return revchain::shapes_on_branch(cord, on_branch(wanted...)).shapes;
+    });
+    def_on_branch<Cord>(module, "steady_shape", [](const Cord& cord, auto... wanted) {
+        return revchain::steady_shape(cord, on_branch(wanted...));
+    });
+    module.def("branch_from", &cord_branch_from, "system"_a, "mode"_a, "birth"_a, "arc"_a, "conical_height"_a,
+               "half_waves"_a, "folds"_a, "points"_a, "gravity"_a, "direction"_a);
 }

@@ -2,7 +2,7 @@
 #include "bindings.hpp"
 #include "revchain/governor.hpp"
 #include "revchain/rope.hpp"
-#include "revchain/special/incomplete_elliptic.hpp"
+#include "revchain/special/jacobi.hpp"
 
 namespace {
 namespace analytic = revchain::analytic;
@@ -26,35 +26,6 @@ void bind_functions(py::module_& module) {
                 u);
         },
         "u"_a, "modulus"_a, "complementary_modulus"_a);
-    module.def(
-        "elliptic_complete",
-        [](const Array& modulus, const Array& complementary_modulus) {
-            return columns<4>(
-                [](double k, double c) {
-                    const analytic::CompleteIntegrals i = analytic::complete_integrals(modulus_of(k, c));
-                    return std::array<double, 4>{i.K, i.E, i.D, i.B};
-                },
-                modulus, complementary_modulus);
-        },
-        "modulus"_a, "complementary_modulus"_a);
-    module.def(
-        "elliptic_incomplete",
-        [](const Array& amplitude, const Array& modulus, const Array& complementary_modulus) {
-            return columns<3>(
-                [](double angle, double k, double c) {
-                    const analytic::IncompleteIntegrals i = analytic::incomplete_integrals(angle, modulus_of(k, c));
-                    return std::array<double, 3>{i.F, i.E, i.D};
-                },
-                amplitude, modulus, complementary_modulus);
-        },
-        "amplitude"_a, "modulus"_a, "complementary_modulus"_a);
-    module.def("elliptic_complete_pi",
-               vectorized([](double n, double k, double c) { return analytic::complete_pi(n, modulus_of(k, c)); }),
-               "characteristic"_a, "modulus"_a, "complementary_modulus"_a);
-    module.def("elliptic_incomplete_pi", vectorized([](double n, double angle, double k, double c) {
-                   return analytic::incomplete_pi(n, angle, modulus_of(k, c));
-               }),
-               "characteristic"_a, "amplitude"_a, "modulus"_a, "complementary_modulus"_a);
 }
 
 void bind_governor(py::module_& module) {

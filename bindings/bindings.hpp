@@ -102,7 +102,6 @@ void bind_held(py::module_& module);
 void bind_two_links(py::module_& module);
 void bind_diagrams(py::module_& module);
 void bind_batch(py::module_& module);
-void bind_points(py::module_& module);
 void bind_response(py::module_& module);
 void bind_models(py::module_& module);
 

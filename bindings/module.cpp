@@ -50,7 +50,6 @@ PYBIND11_MODULE(_core, module, py::mod_gil_not_used()) {
     bind_two_links(module);
     bind_diagrams(module);
     bind_batch(module);
-    bind_points(module);
     bind_response(module);
     bind_models(module);
     refuse_old_pickles(module);

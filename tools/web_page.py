@@ -95,6 +95,7 @@ def main(engines: Path, out: Path) -> None:
         "GLUE": (engines / "simd.js").read_text(encoding="utf-8"),
         "WORKER": without_comments(text["engine.js"]),
         "ENGINE": packed(engines / "simd.wasm"),
+        "VIEWER": (ROOT / "src/revchain/motion/viewer.min.js").read_text(encoding="utf-8"),
         "SCRIPTS": without_comments("\n".join(text[name] for name in SCRIPTS)),
     }
     page = text["page.html"]

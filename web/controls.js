@@ -11,41 +11,43 @@ function element(name, properties = {}, ...children) {
     return made;
 }
 
-/** A slider with a field for any number. `scale` takes the slider's 0 ... 1000 to the number and back. */
-function slider({label, unit = '', scale, get, set, least = -Infinity, main = false, id = ''}) {
-    const range = element('input', {type: 'range', min: 0, max: 1000, step: 'any', id});
-    const field = element('input', {
-        type: 'number',
-        step: 'any',
-        className: 'number',
-        ariaLabel: `${label}, as a number`,
-    });
-    range.ariaLabel = label;
-    const note = element('span', {className: 'unit'});
+function svgElement(viewBox) {
+    const made = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
+    made.setAttribute('viewBox', viewBox);
+    return made;
+}
+
+/** A slider and a field for `owner[key]`. `scale` takes the slider's 0 ... 1000 to the number and back. */
+function slider(owner, key, {label, unit = '', scale, least = -Infinity, main = false, id = '', set}) {
+    const range = element('input', {type: 'range', min: 0, max: 1000, step: 'any', id, ariaLabel: label});
+    const ariaLabel = `${label}, as a number`;
+    const field = element('input', {type: 'number', step: 'any', className: 'number', ariaLabel});
+    const put = (x) => {
+        if (set) return set(x);
+        owner[key] = x;
+        changed();
+    };
     const show = () => {
-        range.value = scale.to(get());
-        range.setAttribute('aria-valuetext', `${digits(get())} ${unit}`);
-        if (document.activeElement !== field) field.value = digits(get(), 6);
+        const value = owner[key] ?? 0;
+        range.value = scale.to(value);
+        range.setAttribute('aria-valuetext', `${digits(value)} ${unit}`);
+        if (document.activeElement !== field) field.value = digits(value, 6);
     };
     range.oninput = () => {
-        set(scale.from(Number(range.value)));
+        put(scale.from(Number(range.value)));
         show();
     };
     field.onchange = () => {
         const value = Number(field.value);
-        if (field.value !== '' && value >= least) set(value);
+        if (field.value !== '' && value >= least) put(value);
         field.blur();
         show();
     };
-    const box = element(
-        'div',
-        {className: `slider${main ? ' main' : ''}`},
-        element('label', {textContent: label, htmlFor: id}),
-        element('span', {}, field, ` ${unit}`),
-        range,
-    );
+    const name = element('label', {textContent: label, htmlFor: id});
+    const className = `slider${main ? ' main' : ''}`;
+    const box = element('div', {className}, name, element('span', {}, field, ` ${unit}`), range);
     show();
-    return {box, show, note};
+    return {box, show};
 }
 
 const linear = (low, high) => ({
@@ -64,14 +66,13 @@ function logarithmic(x) {
 
 let speedSlider = null;
 function buildSliders() {
-    speedSlider = slider({
+    speedSlider = slider(state, 'speed', {
         label: 'Speed',
         unit: 'rad/s',
         main: true,
         id: 'speed',
         least: 0,
         scale: linear(0, () => top),
-        get: () => state.speed ?? 0,
         set: (x) => {
             state.speed = x;
             if (x > top) {
@@ -81,31 +82,18 @@ function buildSliders() {
             changed({speed: true});
         },
     });
-    const gravity = slider({
-        label: 'Gravity',
-        unit: 'm/s²',
-        id: 'gravity',
-        least: 1e-6,
-        scale: {to: (x) => 40 * x, from: (t) => Math.max(0.1, t / 40)},
-        get: () => state.gravity,
-        set: (x) => {
-            state.gravity = x;
-            changed();
-        },
-    });
     const most = 2 * totalLength(state) + 2 * state.radius;
-    const arm = slider({
-        label: 'Arm that carries the support round',
-        unit: 'm',
-        id: 'arm',
-        least: 0,
-        scale: linear(0, () => most),
-        get: () => state.radius,
-        set: (x) => {
-            state.radius = x;
-            changed();
-        },
-    });
+    const weak = {to: (x) => 40 * x, from: (t) => Math.max(0.1, t / 40)};
+    const sliders = [
+        slider(state, 'gravity', {label: 'Gravity', unit: 'm/s²', id: 'gravity', least: 1e-6, scale: weak}),
+        slider(state, 'radius', {
+            label: 'Arm that carries the support round',
+            unit: 'm',
+            id: 'arm',
+            least: 0,
+            scale: linear(0, () => most),
+        }),
+    ];
     const spring = element('input', {type: 'checkbox', checked: state.stiffness !== null});
     spring.onchange = () => {
         const weight = state.gravity * state.parts.reduce((sum, part) => sum + part[PART.count] * part[PART.mass], 0);
@@ -114,160 +102,82 @@ function buildSliders() {
         buildSliders();
         changed();
     };
-    const held = [element('label', {className: 'check'}, spring, 'Support on a sideways spring')];
+    const held = [];
     if (state.stiffness !== null) {
-        held.push(
-            slider({
-                label: 'Stiffness',
-                unit: 'N/m',
-                least: 1e-12,
-                scale: logarithmic(state.stiffness),
-                get: () => state.stiffness,
-                set: (x) => {
-                    state.stiffness = x;
-                    changed();
-                },
-            }).box,
-        );
-        held.push(
-            slider({
-                label: 'Mass that moves with it',
-                unit: 'kg',
-                least: 0,
-                scale: logarithmic(state.carriage || 1),
-                get: () => state.carriage,
-                set: (x) => {
-                    state.carriage = x;
-                    changed();
-                },
-            }).box,
-        );
+        const [stiffness, carriage] = [logarithmic(state.stiffness), logarithmic(state.carriage || 1)];
+        held.push(slider(state, 'stiffness', {label: 'Stiffness', unit: 'N/m', least: 1e-12, scale: stiffness}));
+        held.push(slider(state, 'carriage', {label: 'Mass that moves with it', unit: 'kg', least: 0, scale: carriage}));
     }
+    const boxes = (list) => list.map((each) => each.box);
+    const check = element('label', {className: 'check'}, spring, 'Support on a sideways spring');
+    const summary = element('summary', {textContent: 'Gravity and support'});
     const open = state.radius > 0 || state.stiffness !== null || $('sliders').querySelector('details')?.open;
     $('speed-slider').replaceChildren(speedSlider.box);
-    $('sliders').replaceChildren(
-        element(
-            'details',
-            {open},
-            element('summary', {textContent: 'Gravity and support'}),
-            gravity.box,
-            arm.box,
-            ...held,
-        ),
-    );
+    $('sliders').replaceChildren(element('details', {open}, summary, ...boxes(sliders), check, ...boxes(held)));
+}
+
+const KIND_WORDS = {point: 'point masses', rod: 'rods', body: 'bodies'};
+
+/** The sliders of a part: [index, label, unit, scale, and what else]. */
+function numbersOf(part, kind) {
+    const length = part[PART.length],
+        momentum = 3 * Math.abs(part[PART.momentum]);
+    const setCount = (x) => {
+        const others = linkCount(state) - part[PART.count];
+        part[PART.count] = Math.max(1, Math.min(Math.round(x), MOST_LINKS - others));
+        changed();
+    };
+    const setScaled = (x) => {
+        setLength(part, x);
+        changed();
+    };
+    const count = whole(1, () => Math.max(60, part[PART.count]));
+    const numbers = [
+        [PART.count, 'Links', '', count, {least: 1, set: setCount}],
+        [PART.mass, 'Mass of each', 'kg', logarithmic(part[PART.mass]), {least: 0}],
+        [PART.length, 'Length of each', 'm', logarithmic(length), {least: 1e-12, set: setScaled}],
+    ];
+    if (kind === 'body') {
+        numbers.push([PART.centroid, 'Centre of gravity below the upper pin', 'm', linear(-length, () => 2 * length)]);
+        numbers.push([PART.gyration, 'Radius of gyration', 'm', linear(0, () => 2 * length), {least: 0}]);
+    }
+    if (momentum)
+        numbers.push([PART.momentum, 'Angular momentum of each wheel', 'kg m²/s', linear(-momentum, () => momentum)]);
+    return numbers;
 }
 
 function partBox(part, index) {
-    const kind = element(
-        'select',
-        {ariaLabel: `kind of part ${index + 1}`},
-        ...[
-            ['point', 'point masses'],
-            ['rod', 'rods'],
-            ['body', 'bodies'],
-        ].map(([value, textContent]) => element('option', {value, textContent})),
-    );
+    const options = Object.entries(KIND_WORDS).map(([value, textContent]) => element('option', {value, textContent}));
+    const kind = element('select', {ariaLabel: `kind of part ${index + 1}`}, ...options);
     kind.value = kindOf(part);
     kind.onchange = () => {
         setKind(part, kind.value);
-        if (kind.value === 'body')
-            ((part[PART.gyration] = 0.3 * part[PART.length]), (part[PART.centroid] = 0.6 * part[PART.length]));
+        if (kind.value === 'body') {
+            part[PART.gyration] = 0.3 * part[PART.length];
+            part[PART.centroid] = 0.6 * part[PART.length];
+        }
         buildParts();
         changed();
     };
-    const remove = element('button', {type: 'button', textContent: 'Remove', disabled: state.parts.length === 1});
+    const remove = element('button', {type: 'button', textContent: 'Remove'});
     remove.onclick = () => {
         state.parts.splice(index, 1);
         buildParts();
         changed();
     };
-    const others = () => linkCount(state) - part[PART.count];
-    const place = (i, label, unit, scale, least = 0) =>
-        slider({
-            label,
-            unit,
-            scale,
-            least,
-            id: `part${index}-${Object.keys(PART)[i]}`,
-            get: () => part[i],
-            set: (x) => {
-                part[i] = x;
-                changed();
-            },
-        }).box;
-    const boxes = [
-        slider({
-            label: 'Links',
-            id: `part${index}-count`,
-            least: 1,
-            scale: whole(1, () => Math.max(60, part[PART.count])),
-            get: () => part[PART.count],
-            set: (x) => {
-                part[PART.count] = Math.max(1, Math.min(Math.round(x), MOST_LINKS - others()));
-                changed();
-            },
-        }).box,
-        place(PART.mass, 'Mass of each', 'kg', logarithmic(part[PART.mass])),
-        slider({
-            label: 'Length of each',
-            unit: 'm',
-            id: `part${index}-length`,
-            least: 1e-12,
-            scale: logarithmic(part[PART.length]),
-            get: () => part[PART.length],
-            set: (x) => {
-                setLength(part, x);
-                changed();
-            },
-        }).box,
-    ];
-    if (kind.value === 'body') {
-        const span = 2 * part[PART.length];
-        boxes.push(
-            place(
-                PART.centroid,
-                'Centre of gravity below the upper pin',
-                'm',
-                linear(-span / 2, () => span),
-                -Infinity,
-            ),
-        );
-        boxes.push(
-            place(
-                PART.gyration,
-                'Radius of gyration',
-                'm',
-                linear(0, () => span),
-            ),
-        );
-    }
-    if (part[PART.momentum])
-        boxes.push(
-            place(
-                PART.momentum,
-                'Angular momentum of each wheel',
-                'kg m²/s',
-                linear(-3 * Math.abs(part[PART.momentum]), () => 3 * Math.abs(part[PART.momentum])),
-                -Infinity,
-            ),
-        );
+    const boxes = numbersOf(part, kind.value).map(([key, label, unit, scale, more]) => {
+        const id = `part${index}-${Object.keys(PART)[key]}`;
+        return slider(part, key, {label, unit, scale, id, ...more}).box;
+    });
     if (part[PART.stands]) boxes.push(element('p', {textContent: 'These links stand on their upper pins.'}));
-    const name = state.parts.length === 1 ? 'All links' : index === 0 ? 'Lowest' : `Part ${index + 1}`;
-    return element(
-        'fieldset',
-        {},
-        element('legend', {}, name, kind, ...(state.parts.length > 1 ? [remove] : [])),
-        ...boxes,
-    );
+    const alone = state.parts.length === 1;
+    const name = alone ? 'All links' : index === 0 ? 'Lowest' : `Part ${index + 1}`;
+    return element('fieldset', {}, element('legend', {}, name, kind, ...(alone ? [] : [remove])), ...boxes);
 }
 
 function buildParts() {
-    const fine = state.parts.length <= 4;
     const boxes = state.parts.map(partBox);
-    $('parts').replaceChildren(
-        ...(fine
-            ? boxes
-            : [element('details', {}, element('summary', {textContent: plural(boxes.length, 'part')}), ...boxes)]),
-    );
+    const summary = element('summary', {textContent: plural(boxes.length, 'part')});
+    $('parts').replaceChildren(...(boxes.length <= 4 ? boxes : [element('details', {}, summary, ...boxes)]));
     $('add').disabled = linkCount(state) >= MOST_LINKS;
 }

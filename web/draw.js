@@ -1,54 +1,16 @@
 // SPDX-License-Identifier: MPL-2.0
-// Pictures on canvases: the chain in space, a shape from the side, the diagram of branches. Nothing is computed here.
+// Pictures: the chain in space (three.js), a shape from the side and the diagram of branches (SVG).
 
-const COLOURS = ['paper', 'card', 'ink', 'soft', 'line', 'accent', 'w1', 'w2', 'w3', 'w4', 'w5', 'w6'];
-let colour = {};
-function readColours() {
-    const style = getComputedStyle(document.documentElement);
-    colour = Object.fromEntries(COLOURS.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
-}
-const waveColour = (halfWaves) => colour[`w${((halfWaves - 1) % 6) + 1}`];
+const waveName = (halfWaves) => `--w${((halfWaves - 1) % 6) + 1}`;
+const waveColour = (halfWaves) => `var(${waveName(halfWaves)})`;
 
-/** Sizes of canvases, read once: reading one makes the browser lay out the page. Emptied when the window changes. */
-const sizes = new Map();
-function sizeOf(canvas) {
-    if (!sizes.has(canvas)) sizes.set(canvas, [canvas.clientWidth, canvas.clientHeight]);
-    return sizes.get(canvas);
-}
-
-/** A canvas cleared, at the resolution of the screen, with lengths in CSS pixels. */
-function paper(canvas) {
-    const [width, height] = sizeOf(canvas),
-        ratio = window.devicePixelRatio || 1;
-    const wide = Math.round(width * ratio),
-        high = Math.round(height * ratio);
-    if (canvas.width !== wide || canvas.height !== high) [canvas.width, canvas.height] = [wide, high];
-    const pen = canvas.getContext('2d');
-    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
-    pen.clearRect(0, 0, width, height);
-    return {pen, width, height};
-}
-
-function line(pen, points, style, width = 1, dash = []) {
-    pen.beginPath();
-    for (const [x, y] of points) pen.lineTo(x, y);
-    pen.strokeStyle = style;
-    pen.lineWidth = width;
-    pen.setLineDash(dash);
-    pen.stroke();
-    pen.setLineDash([]);
-}
-
-function dot(pen, [x, y], radius, style, hollow = false) {
-    pen.beginPath();
-    pen.arc(x, y, radius, 0, 2 * Math.PI);
-    pen.fillStyle = hollow ? colour.card : style;
-    pen.fill();
-    if (!hollow) return;
-    pen.strokeStyle = style;
-    pen.lineWidth = 1.8;
-    pen.stroke();
-}
+/** Elements of SVG as text; points are [x, y]. */
+const pointsOf = (points) => points.map(([x, y]) => `${x.toFixed(1)},${y.toFixed(1)}`).join(' ');
+const curve = (points, colour, more = '') =>
+    `<polyline points="${pointsOf(points)}" fill="none" style="stroke: ${colour}" ${more}/>`;
+const dot = ([x, y], radius, colour, hollow = false) =>
+    `<circle cx="${x}" cy="${y}" r="${radius}" style="fill: ${hollow ? 'var(--card)' : colour}; stroke: ${colour}"/>`;
+const label = ([x, y], text, more = '') => `<text x="${x}" y="${y}" ${more}>${text}</text>`;
 
 /** Pins of a chain that is bent by so much: offsets as given, heights so that every link keeps its length. */
 function heightsOf(links, offset) {
@@ -72,171 +34,104 @@ function massesOf(links, {offset, height}) {
     });
 }
 
-const eye = {yaw: 0.5, pitch: 0.22, scale: null, middle: 0};
-
-/** The chain `figure` {links, offset, height, halfWaves} turned by `angle`, with its support, its circle and its shadow. */
-function drawSpace(canvas, radius, figure, angle, settle) {
-    const {links} = figure;
-    const {pen, width, height} = paper(canvas);
-    const reach = Math.max(radius, ...figure.offset.map(Math.abs), 1e-3 * links.length * links[0][PART.length]);
-    const top = Math.max(0, ...figure.height),
-        bottom = Math.min(0, ...figure.height),
-        span = top - bottom;
-    const sine = Math.sin(eye.pitch),
-        cosine = Math.cos(eye.pitch);
-    const high = span * cosine * 1.14 + 2 * reach * Math.abs(sine);
-    const scale = Math.min((width - 40) / (2.1 * reach), (height - 36) / high);
-    eye.scale = eye.scale === null || settle ? scale : eye.scale + 0.15 * (scale - eye.scale);
-    const middle = (top + bottom) / 2 - 0.04 * span;
-    eye.middle = settle || eye.middle === null ? middle : eye.middle + 0.15 * (middle - eye.middle);
-    const floor = bottom - Math.max(0.08 * span, 0.12 * reach);
-    const seen = (r, z, a) => {
-        const x = r * Math.cos(a - eye.yaw),
-            depth = r * Math.sin(a - eye.yaw);
-        return [width / 2 + eye.scale * x, height / 2 - eye.scale * ((z - eye.middle) * cosine - depth * sine), depth];
-    };
-    const circle = (r, z) => Array.from({length: 73}, (_, i) => seen(r, z, (i * Math.PI) / 36));
-
-    pen.lineJoin = pen.lineCap = 'round';
-    line(pen, circle(1.03 * reach, floor), colour.line);
-    line(pen, [seen(0, Math.max(top, 0) + 0.04 * span, 0), seen(0, floor, 0)], colour.soft, 1, [4, 4]);
-    const pins = Array.from(figure.offset, (r, i) => seen(r, figure.height[i], angle));
-    line(
-        pen,
-        Array.from(figure.offset, (r) => seen(r, floor, angle)),
-        colour.line,
-        4,
-    );
-    line(pen, circle(Math.abs(figure.offset[0]), figure.height[0]), colour.line, 1.2);
-    const support = pins.at(-1);
-    if (radius) line(pen, [seen(0, 0, 0), seen(radius, 0, angle)], colour.soft, 5);
-    line(pen, [seen(radius, 0, angle), support], colour.soft, 2, [3, 3]);
-    const style = waveColour(figure.halfWaves);
-    line(pen, pins, style, links.length > 60 ? 2.2 : 3.4);
-    if (links.length <= 60) for (const pin of pins) dot(pen, pin, 2.2, style);
-    const masses = massesOf(links, figure).map(([r, z, size]) => [seen(r, z, angle), size]);
-    const largest = Math.max(3, Math.min(11, width / 55, 90 / Math.sqrt(links.length)));
-    for (const [place, size] of masses.sort((a, b) => b[0][2] - a[0][2]))
-        dot(pen, place, Math.max(2.5, largest * size), style);
-    dot(pen, support, 4, colour.ink);
+/** The stage in an element, shared with the pages of the package; null where the browser has no WebGL. */
+function stageIn(element) {
+    try {
+        const stage = new viewer.Stage(element);
+        Object.assign(stage.controls, {enableZoom: false, enablePan: false}); // wheel and fingers scroll the page
+        stage.canvas.style.touchAction = 'pan-y';
+        stage.canvas.ariaLabel = element.getAttribute('aria-label');
+        stage.canvas.onkeydown = (event) => {
+            if (stage.key(event.key)) event.preventDefault();
+        };
+        return stage;
+    } catch {
+        element.textContent = 'This picture needs WebGL, which this browser does not have or has switched off.';
+        return null;
+    }
 }
 
-const CARD = [124, 92]; // CSS pixels, as in page.css
+/** The chain `figure` {links, offset, height, halfWaves} on the stage, with its support and its arm. */
+function putOnStage(stage, arm, figure, afresh) {
+    const pins = Array.from(figure.offset, (r, i) => [r, figure.height[i]]);
+    const [floor, top] = [Math.min(0, ...figure.height), Math.max(0, ...figure.height)];
+    const shown = viewer.chainFigure({
+        pins,
+        bodies: massesOf(figure.links, figure),
+        arm,
+        top,
+        floor,
+        colour: getComputedStyle(document.documentElement).getPropertyValue(waveName(figure.halfWaves)).trim(),
+    });
+    stage.show([shown], viewer.extentOf([shown]));
+    stage.arrange(afresh);
+}
+
+const CARD = [124, 92]; // as in the element's viewBox
 
 /** A shape from the side, in a card. */
-function drawSide(canvas, figure, style) {
-    sizes.set(canvas, CARD);
-    const {pen, width, height} = paper(canvas);
+function drawSide(svg, figure) {
     const ends = (list) => [Math.min(0, ...list), Math.max(0, ...list)];
     const [left, right] = ends(figure.offset),
         [bottom, top] = ends(figure.height);
-    const scale = Math.min((width - 14) / (right - left || 1), (height - 14) / (top - bottom || 1));
-    const at = (r, z) => [width / 2 + scale * (r - (left + right) / 2), 7 + scale * (top - z)];
-    line(pen, [at(0, top), [at(0, 0)[0], height - 4]], colour.line);
-    pen.lineJoin = 'round';
-    line(
-        pen,
-        Array.from(figure.offset, (r, i) => at(r, figure.height[i])),
-        style,
-        2,
-    );
-    dot(pen, at(figure.offset.at(-1), figure.height.at(-1)), 2.5, colour.ink);
+    const scale = Math.min((CARD[0] - 14) / (right - left || 1), (CARD[1] - 14) / (top - bottom || 1));
+    const at = (r, z) => [CARD[0] / 2 + scale * (r - (left + right) / 2), 7 + scale * (top - z)];
+    const pins = Array.from(figure.offset, (r, i) => at(r, figure.height[i]));
+    svg.innerHTML =
+        curve([at(0, top), [at(0, 0)[0], CARD[1] - 4]], 'var(--line)') +
+        curve(pins, waveColour(figure.halfWaves), 'stroke-width="2"') +
+        dot(pins.at(-1), 2.5, 'var(--ink)');
 }
 
-/** Round numbers from 0 to `most`. */
-function ticks(most, wanted) {
-    const rough = most / wanted,
-        power = 10 ** Math.floor(Math.log10(rough));
-    const step = [1, 2, 5, 10].map((digit) => digit * power).find((each) => each >= rough);
-    return Array.from({length: Math.floor(most / step + 1e-9) + 1}, (_, i) => Number((i * step).toPrecision(6)));
-}
+const DIAGRAM = {width: 430, height: 270, left: 46, right: 418, top: 12, bottom: 234}; // as in the element's viewBox
 
-const MARGIN = {left: 46, right: 12, top: 12, bottom: 36};
-
-/** Places of the diagram: from speeds and radii to pixels and back. */
-function diagramScale({width, height}, top, reach) {
-    const wide = width - MARGIN.left - MARGIN.right,
-        high = height - MARGIN.top - MARGIN.bottom;
+/** Positions in the diagram: from speeds and radii to units of the picture and back. */
+function diagramScale(most, reach) {
+    const {left, right, top, bottom} = DIAGRAM;
     return {
-        x: (speed) => MARGIN.left + (wide * speed) / top,
-        y: (radius) => MARGIN.top + high * (1 - radius / reach),
-        speed: (x) => top * Math.min(1, Math.max(0, (x - MARGIN.left) / wide)),
-        radius: (y) => reach * (1 - (y - MARGIN.top) / high),
+        x: (speed) => left + ((right - left) * speed) / most,
+        y: (radius) => bottom - ((bottom - top) * radius) / reach,
+        speed: (x) => most * Math.min(1, Math.max(0, (x - left) / (right - left))),
     };
 }
 
 const isStable = (shape) => shape.verdict === 'minimum' || shape.verdict === 'spectrally stable';
 
+/** A branch in pieces of one colour, that of the half waves. */
+function branchCurves({speed, tip, halfWaves}, {x, y}) {
+    let text = '';
+    for (let from = 0, to; from + 1 < speed.length; from = to) {
+        for (to = from + 1; halfWaves[to] === halfWaves[to + 1]; ) ++to;
+        const points = Array.from(speed.subarray(from, to + 1), (each, i) => [x(each), y(Math.abs(tip[from + i]))]);
+        text += curve(points, waveColour(halfWaves[to]), 'stroke-width="1.8"');
+    }
+    return text;
+}
+
 /** Distance of the free end from the axis against speed. Filled dots: stable shapes; hollow ones: others. */
-function drawDiagram(canvas, {branches, shapes, selected, speed, top, reach}) {
-    const {pen, width, height} = paper(canvas),
-        {x, y} = diagramScale({width, height}, top, reach);
-    pen.font = '12px system-ui, sans-serif';
-    pen.fillStyle = colour.soft;
-    pen.textAlign = 'center';
-    for (const tick of ticks(top, width / 90)) {
-        line(
-            pen,
-            [
-                [x(tick), y(0)],
-                [x(tick), y(reach)],
-            ],
-            colour.line,
-        );
-        pen.fillText(tick, x(tick), height - 20);
+function drawDiagram(svg, {branches, shapes, selected, speed, top, reach}) {
+    const scale = diagramScale(top, reach),
+        {x, y} = scale,
+        {left, right, bottom, width, height} = DIAGRAM;
+    let text = '';
+    for (const tick of viewer.ticks(0, top)) {
+        text += curve([[x(tick), y(0)], [x(tick), y(reach)]], 'var(--line)');
+        text += label([x(tick), bottom + 16], tick, 'text-anchor="middle"');
     }
-    pen.fillText('speed (rad/s)', (MARGIN.left + width) / 2, height - 5);
-    pen.textAlign = 'right';
-    for (const tick of ticks(reach, height / 60)) {
-        line(
-            pen,
-            [
-                [x(0), y(tick)],
-                [x(top), y(tick)],
-            ],
-            colour.line,
-        );
-        pen.fillText(tick, MARGIN.left - 6, y(tick) + 4);
+    for (const tick of viewer.ticks(0, reach)) {
+        text += curve([[left, y(tick)], [right, y(tick)]], 'var(--line)');
+        text += label([left - 6, y(tick) + 4], tick, 'text-anchor="end"');
     }
-    pen.save();
-    pen.translate(11, height / 2 - 10);
-    pen.rotate(-Math.PI / 2);
-    pen.textAlign = 'center';
-    pen.fillText('free end from axis (m)', 0, 0);
-    pen.restore();
-    pen.lineJoin = 'round';
-    pen.save();
-    pen.beginPath();
-    pen.rect(x(0), y(reach), x(top) - x(0), y(0) - y(reach));
-    pen.clip();
-    for (const branch of branches)
-        for (let from = 0; from + 1 < branch.speed.length;) {
-            let to = from + 1;
-            while (to + 1 < branch.speed.length && branch.halfWaves[to] === branch.halfWaves[to + 1]) ++to;
-            const places = [];
-            for (let i = from; i <= to; ++i) places.push([x(branch.speed[i]), y(Math.abs(branch.tip[i]))]);
-            line(pen, places, waveColour(branch.halfWaves[to]), 1.8);
-            from = to;
-        }
-    pen.restore();
-    line(
-        pen,
-        [
-            [x(speed), y(0)],
-            [x(speed), y(reach)],
-        ],
-        colour.accent,
-        1.2,
-        [5, 4],
-    );
+    text += label([(left + width) / 2, height - 5], 'speed (rad/s)', 'text-anchor="middle"');
+    const upright = `text-anchor="middle" transform="translate(11 ${height / 2 - 10}) rotate(-90)"`;
+    text += label([0, 0], 'free end from axis (m)', upright);
+    text += `<svg x="0" y="0" width="${right}" height="${bottom}">`; // which cuts off what goes farther
+    for (const branch of branches) text += branchCurves(branch, scale);
+    text += '</svg>' + curve([[x(speed), y(0)], [x(speed), y(reach)]], 'var(--accent)', 'stroke-dasharray="5 4"');
     for (const shape of shapes) {
-        const place = [x(speed), y(Math.abs(shape.offset[0]))];
-        dot(
-            pen,
-            place,
-            shape === selected ? 6 : 4,
-            waveColour(shape.halfWaves),
-            shape.verdict !== null && !isStable(shape),
-        );
+        const size = shape === selected ? 6 : 4;
+        const hollow = shape.verdict !== null && !isStable(shape);
+        text += dot([x(speed), y(Math.abs(shape.offset[0]))], size, waveColour(shape.halfWaves), hollow);
     }
+    svg.innerHTML = text;
 }

@@ -157,7 +157,8 @@ function showCards(list, figures, describe, isChosen, key) {
     while (list.children.length > figures.length) list.lastChild.remove();
     while (list.children.length < figures.length) {
         const lines = [element('b'), ...Array.from({length: 3}, () => element('small'))];
-        const card = element('button', {type: 'button', className: 'card'}, element('canvas'), ...lines);
+        const picture = svgElement(`0 0 ${CARD.join(' ')}`);
+        const card = element('button', {type: 'button', className: 'card'}, picture, ...lines);
         const index = list.children.length + 1;
         card.onclick = () => select(`${key}${index}`);
         list.append(card);
@@ -166,7 +167,7 @@ function showCards(list, figures, describe, isChosen, key) {
         const card = list.children[i];
         card.ariaPressed = String(isChosen(figure, i));
         describe(figure, i).forEach((text, line) => write(card.children[line + 1], text));
-        drawSide(card.firstChild, figure, waveColour(figure.halfWaves));
+        drawSide(card.firstChild, figure);
     });
 }
 
@@ -290,27 +291,39 @@ function show() {
         : '';
 }
 
-/** How many times slower than true the picture turns. */
-function slowness(speed) {
-    const given = $('slowness').value;
-    return given === 'auto' ? Math.max(1, 2 ** Math.ceil(Math.log2(Math.abs(speed) / 4 || 1))) : Number(given);
+/** Playback over real time: slow enough to be followed, times what the slider says. */
+function playbackOf(speed) {
+    return 10 ** $('pace').value / Math.max(1, 2 ** Math.ceil(Math.log2(Math.abs(speed) / 4 || 1)));
+}
+
+function paceWords(playback) {
+    if (Math.abs(playback - 1) < 1e-9) return 'in real time';
+    return `${digits(Math.max(playback, 1 / playback), 3)} times ${playback < 1 ? 'slower' : 'faster'} than real time`;
 }
 
 let lastFrame = null,
+    stage = null,
+    staged = null, // the figure on the stage
     settle = true;
 function frame(time) {
     requestAnimationFrame(frame);
     const speed = chosen?.isMode ? chosen.speed : (state.speed ?? 0),
-        slow = slowness(speed);
+        playback = playbackOf(speed);
     if (playing && lastFrame !== null)
-        angle = (angle + (speed / slow) * Math.min(0.1, (time - lastFrame) / 1000)) % (2 * Math.PI);
+        angle = (angle + speed * playback * Math.min(0.1, (time - lastFrame) / 1000)) % (2 * Math.PI);
     lastFrame = time;
     if (dirty) {
         show();
-        $('scale').textContent =
-            `${digits(speed)} rad/s = ${digits((speed * 30) / Math.PI)} rpm${slow > 1 ? `, ${slow} times slower` : ''}`;
+        write($('playback'), `×${digits(10 ** $('pace').value, 2)}`);
+        write($('scale'), `${digits(speed)} rad/s = ${digits((speed * 30) / Math.PI)} rpm, ${paceWords(playback)}`);
     }
-    drawSpace($('view'), state.radius, chosen ?? straight(), angle, settle);
+    chosen ??= straight();
+    if (stage && staged !== chosen) putOnStage(stage, state.radius, chosen, settle);
+    if (stage) {
+        stage.figures[0].turning.rotation.y = angle;
+        if (playing || stage.stale) stage.draw();
+    }
+    staged = chosen;
     settle = false;
     mark('picture');
     if (modes && !dirty) mark('modes');
@@ -374,12 +387,13 @@ function listen() {
     };
     $('play').onclick = () => {
         playing = !playing;
-        $('play').textContent = playing ? 'Pause' : 'Turn';
+        $('play').textContent = playing ? 'Pause' : 'Play';
         $('play').ariaPressed = String(playing);
     };
-    $('slowness').onchange = () => {
+    $('pace').oninput = () => {
         dirty = true;
     };
+    $('reset').onclick = () => stage?.arrange(true);
     $('share').onclick = async () => {
         history.replaceState(null, '', `#${toLink(state)}`);
         try {
@@ -392,18 +406,6 @@ function listen() {
             $('share').textContent = 'Copy link';
         }, 2000);
     };
-    let held = null;
-    dragged($('view'), (event, first) => {
-        if (!first && held) {
-            eye.yaw += (event.clientX - held[0]) / 150;
-            eye.pitch = Math.max(-1.5, Math.min(1.5, eye.pitch + (event.clientY - held[1]) / 200));
-        }
-        held = [event.clientX, event.clientY];
-    });
-    $('view').onkeydown = ({key}) => {
-        eye.yaw += {ArrowLeft: -0.1, ArrowRight: 0.1}[key] ?? 0;
-        eye.pitch = Math.max(-1.5, Math.min(1.5, eye.pitch + ({ArrowUp: 0.1, ArrowDown: -0.1}[key] ?? 0)));
-    };
     const setSpeed = (speed) => {
         state.speed = Number(speed.toPrecision(4));
         speedSlider.show();
@@ -412,9 +414,9 @@ function listen() {
     dragged($('diagram'), (event, first) => {
         const box = $('diagram').getBoundingClientRect(),
             reach = reachOfTip(),
-            scale = diagramScale(box, top, reach);
-        const x = event.clientX - box.left,
-            y = event.clientY - box.top;
+            scale = diagramScale(top, reach);
+        const x = ((event.clientX - box.left) * DIAGRAM.width) / box.width,
+            y = ((event.clientY - box.top) * DIAGRAM.height) / box.height;
         const near = (shapes?.shapes ?? []).findIndex(
             (shape) => Math.hypot(x - scale.x(state.speed), y - scale.y(Math.abs(shape.offset[0]))) < 14,
         );
@@ -426,20 +428,13 @@ function listen() {
         if (step) setSpeed(Math.max(0, state.speed + (step * top) / 200));
     };
     window.onhashchange = openLink;
-    window.onresize = () => {
-        sizes.clear();
-        dirty = true;
-        modesShown = false;
-    };
     matchMedia('(prefers-color-scheme: dark)').onchange = () => {
-        readColours();
-        dirty = true;
-        modesShown = false;
+        staged = null; // its colours are those of the page
     };
 }
 
 async function start() {
-    readColours();
+    stage = stageIn($('view'));
     listen();
     openLink();
     requestAnimationFrame(frame);

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import json
 import re
-from pathlib import Path
 from typing import Any
 
-SCHEMA = Path(__file__).parents[2] / "src/revchain/scenes/scene.schema.json"
+from revchain.scenes.scene import json_schema
+
 UNITS = "A number and its unit"
 
 
@@ -51,7 +51,7 @@ def places(definitions: dict[str, Any]) -> dict[str, str]:
 
 def pages() -> dict[str, str]:
     """By its place in the site."""
-    definitions = json.loads(SCHEMA.read_text(encoding="utf-8"))["$defs"]
+    definitions = json_schema()["$defs"]
     titles = places(definitions)
     parts = [
         "# Scene files",

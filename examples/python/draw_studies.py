@@ -22,7 +22,7 @@ spun, ratio, scatter = (panels[name] for name in ("spun", "ratio", "scatter"))
 
 wheels = rc.sweep(STUDIES / "wheels_spun_up.toml")
 for sense, colour in (("forward", COLOURS[0]), ("backward", COLOURS[3])):
-    speeds = wheels[f"{sense}_angular_speed"] * RPM
+    speeds = wheels[f"{sense}_angular_speed"].to_numpy() * RPM
     spun.plot(wheels["spin"] * RPM, speeds, color=colour)
     modes = {f"forward {k}": speed for k, speed in enumerate(speeds[-1], 1)} if sense == "forward" else {}
     for text, at in (modes or {"backward 1 to 3, from below": -24.0}).items():
@@ -30,7 +30,7 @@ for sense, colour in (("forward", COLOURS[0]), ("backward", COLOURS[3])):
     print(f"twelve wheels at 600 rpm, {sense}: " + ", ".join(f"{speed:.2f}" for speed in speeds[-1]) + " rpm")
 spun.set(title="Twelve bicycle wheels spun up", xlabel="spin (rpm)", ylabel="whirl speed (rpm)", ylim=(-25, None))
 
-weights = rc.sweep(STUDIES / "two_weights.toml").to_xarray()
+weights = rc.sweep(STUDIES / "two_weights.toml")
 speed = weights["angular_speed"]
 mass, length = "links[0].mass", "links[0].length"
 closest = (speed.sel(mode=2) / speed.sel(mode=1)).transpose(length, mass)
@@ -43,7 +43,7 @@ print(f"two weights: the second speed is at least {float(closest.min()):.3f} of 
 
 crane = rc.sweep(STUDIES / "crane_scatter.toml")
 for k, name in enumerate(("first", "second")):
-    periods = 2 * np.pi / crane["angular_speed"][:, k]
+    periods = 2 * np.pi / crane["angular_speed"].to_numpy()[:, k]
     deviation = 100 * (periods / periods.mean() - 1)
     bins = np.linspace(-15, 15, 121)
     scatter.hist(deviation, bins, density=True, histtype="step", color=COLOURS[k], label=f"{name} mode")

@@ -12,17 +12,15 @@ Questions
     modes, count_modes, steady_shapes, steady_shape, branches, branch, response, swing, tune, fit, explain;
     conical_heights for many chains at once
 Results
-    Modes, RigModes, CordModes, SteadyShapes, SteadyShape, CordShape, HeldShape, HeldCordShape, Branches, Branch,
-    HeldBranches, HeldBranch,
+    Modes, SteadyShapes, SteadyShape, Branches, Branch,
     Stability, ForceDiagram, Response, Swing, Tuned, Fitted, Explanation, Sensitivity, Uncertainty; ``load`` reads the
     files that their method ``save`` wrote. Variants of these, and classes of their fields, are in the reference and can
-    be imported from here, too: CordBranch, WhirlSwing, RigUncertainty, Certificate and others
 Closed forms
     conical_pendulum, plummet, two_links, elliptic, hoop, bell_and_clapper, funicular_polygon, transverse_modes,
     recurrence_matrices; BellAndClapper, BufferImpact, GovernorMotion, GyrostaticString, SkippingRope, TortuousRope,
     FunicularPolygon, TransverseModes
 Files
-    Scene, load_scene, Study, load_study, sweep, SweepResult, SceneError; of multibody engines to_mjcf, from_mjcf, to_urdf,
+    Scene, load_scene, Study, load_study, sweep, SceneError; of multibody engines to_mjcf, from_mjcf, to_urdf,
     from_urdf
 C++
     cmake_prefix: the folder of the C++ headers in this package
@@ -53,29 +51,22 @@ from typing import Any as _Any
 from .questions.batch import conical_heights as conical_heights
 from .questions.branches import branch as branch
 from .questions.branches import branches as branches
-from .questions.branches import steady_shape as steady_shape
 from .questions.explain import explain as explain
 from .questions.fit import fit as fit
 from .questions.modes import count_modes as count_modes
 from .questions.modes import modes as modes
 from .questions.modes import recurrence_matrices as recurrence_matrices
 from .questions.response import response as response
-from .questions.response import swing as swing
+from .questions.shapes import steady_shape as steady_shape
 from .questions.shapes import steady_shapes as steady_shapes
+from .questions.swing import swing as swing
 from .questions.tune import tune as tune
-from .results.bent import CordShape as CordShape
-from .results.bent import HeldCordShape as HeldCordShape
-from .results.bent import HeldShape as HeldShape
 from .results.branches import Branch as Branch
 from .results.branches import Branches as Branches
-from .results.held_branches import HeldBranch as HeldBranch
-from .results.held_branches import HeldBranches as HeldBranches
 from .results.diagrams import ForceDiagram as ForceDiagram
 from .results.explanation import Explanation as Explanation
 from .results.fitted import Fitted as Fitted
-from .results.modes import CordModes as CordModes
 from .results.modes import Modes as Modes
-from .results.modes import RigModes as RigModes
 from .results.motions import Response as Response
 from .results.motions import Swing as Swing
 from .results.sensitivity import Sensitivity as Sensitivity
@@ -116,23 +107,13 @@ if _TYPE_CHECKING:
     from .exchange.read import from_urdf as from_urdf
     from .exchange.urdf import to_urdf as to_urdf
     from .closed_forms.bell import Strike as Strike
-    from .results.bent import Place as Place
+    from .results.shapes import Place as Place
     from .results.branches import StabilityWindow as StabilityWindow
-    from .results.cord_branches import CordBranch as CordBranch
-    from .results.cord_branches import CordBranches as CordBranches
-    from .results.cord_motions import CordSwing as CordSwing
-    from .results.cord_sensitivity import CordSensitivity as CordSensitivity
-    from .results.cord_sensitivity import CordUncertainty as CordUncertainty
     from .results.modes import Certificate as Certificate
     from .results.modes import OtherModes as OtherModes
-    from .results.motions import WhirlSwing as WhirlSwing
-    from .results.sensitivity import RigSensitivity as RigSensitivity
-    from .results.sensitivity import RigUncertainty as RigUncertainty
-    from .results.shape_sensitivity import ShapeSensitivity as ShapeSensitivity
     from .results.storage import load as load
     from .scenes.scene import Scene as Scene
     from .scenes.scene import load_scene as load_scene
-    from .studies.result import SweepResult as SweepResult
     from .studies.study import Study as Study
     from .studies.study import load_study as load_study
     from .studies.sweep import sweep as sweep
@@ -161,22 +142,13 @@ _LATER = dict.fromkeys(_CLOSED_FORMS, "closed_forms") | {
 }
 _RECEIVED = {  # classes of results that no program makes; `dir` leaves them out
     "Certificate": "results.modes",
-    "CordBranch": "results.cord_branches",
-    "CordBranches": "results.cord_branches",
-    "CordSensitivity": "results.cord_sensitivity",
-    "CordSwing": "results.cord_motions",
-    "CordUncertainty": "results.cord_sensitivity",
     "OtherModes": "results.modes",
-    "Place": "results.bent",
-    "RigSensitivity": "results.sensitivity",
-    "RigUncertainty": "results.sensitivity",
-    "ShapeSensitivity": "results.shape_sensitivity",
+    "Place": "results.shapes",
     "StabilityWindow": "results.branches",
     "Strike": "closed_forms.bell",
-    "WhirlSwing": "results.motions",
 }
 _OF_FILES = {"Scene": "scenes.scene", "load_scene": "scenes.scene", "Study": "studies.study", "load_study": "studies.study"}
-_OF_FILES |= {"SweepResult": "studies.result", "sweep": "studies.sweep"}
+_OF_FILES |= {"sweep": "studies.sweep"}
 
 
 def __getattr__(name: str) -> _Any:

@@ -120,8 +120,6 @@ class Corpus:
         if kind == 2:
             path = self.folder / "changed.json"
             data = tomllib.loads(text)
-            if draw.random() < 0.2:
-                data["schema_version"] = 1  # whose keys are read to say what to write instead
             path.write_bytes(json.dumps(changed_data(data, draw)).encode())
             return read, path
         path = self.folder / "changed.toml"

@@ -1,11 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Films and pages: every place in them is that of the result, at its time."""
+"""Films: every position in them is that of the result, at its time."""
 
-import base64
 import html
-import json
 import re
-import shutil
 import subprocess
 
 import numpy as np
@@ -59,7 +56,7 @@ def test_shapes_are_true_to_scale(kind):
     shown = film(found, figures=None if kind == "shape" else [len(shapes) - 1, 0])
     for figure, shape in zip(shown.figures, [shapes[0]] if kind == "shape" else [shapes[-1], shapes[0]], strict=True):
         assert np.array_equal(figure.offset[0], shape.offset) and np.array_equal(figure.height[0], shape.height)
-        assert figure.speed[0] == shape.angular_speed and np.array_equal(figure.tension, shape.tension)
+        assert figure.speed[0] == shape.angular_speed
 
 
 def test_places_of_cords():
@@ -67,7 +64,7 @@ def test_places_of_cords():
         found = ALL[kind]()
         shape = found[0] if kind == "shapes of a rope" else found
         figure = film(found).figures[0]
-        at = shape.at(np.linspace(0, 1, 101))
+        at = shape.along(np.linspace(0, 1, 101))
         assert np.array_equal(figure.offset[0], at.offset) and np.array_equal(figure.height[0], at.height)
 
 
@@ -84,6 +81,7 @@ def test_a_branch_is_gone_through_from_end_to_end():
     mean = (figure.speed[1:] + figure.speed[:-1]) / 2
     assert np.allclose(np.diff(figure.phase), mean * shown.time_scale / 25, rtol=1e-9)
     for frame in (20, 40, 60):  # what is shown is a shape of that speed
+        assert abs(float(shown.progress[frame].split()[2]) / figure.speed[frame] - 1) < 6e-3
         [shape] = branch.at(angular_speed=figure.speed[frame])
         assert np.abs(figure.offset[frame] - shape.offset).max() < 5e-3
         assert abs(shown.chart.x[0][frame] - figure.speed[frame]) < 1e-12
@@ -126,7 +124,7 @@ def test_a_swing_is_where_it_is_at_each_time(kind):
     assert shown.frames == TIMES.size - 1  # the film ends one frame before the last time, so that it runs as long
     true = figure.offset / figure.scale[0]
     assert np.abs(true - found.offset[:-1]).max() < 1e-14
-    assert shown.clock[3] == f"t = {TIMES[3]:.3f} s" and not figure.phase.any()
+    assert shown.progress[3] == f"Time: {TIMES[3]:.3f} s" and not figure.phase.any()
 
 
 def test_bodies_are_on_their_links():
@@ -148,7 +146,7 @@ def test_thinned_films_keep_the_ends():
         assert np.array_equal(one.offset[0, [0, -1]], other.offset[0, [0, -1]])
     swing = film(ONE["swing"]())
     fewer = swing.thinned(11, 100)
-    assert fewer.frames == 11 and fewer.clock[-1] == swing.clock[-1] and fewer.bodies is swing.bodies
+    assert fewer.frames == 11 and fewer.progress[-1] == swing.progress[-1] and fewer.bodies is swing.bodies
     assert abs((fewer.frames - 1) / fewer.frames_per_second - (swing.frames - 1) / swing.frames_per_second) < 1e-12
 
 
@@ -238,145 +236,6 @@ def test_ffmpeg_that_fails(tmp_path, monkeypatch):
     assert not (tmp_path / "film.mp4").exists()
 
 
-# ---- pages
-
-
-def data_of(path):
-    text = path.read_text("utf-8")
-    [data] = re.findall(r'<script type="application/json" id="data">(.*?)</script>', text, re.DOTALL)
-    return text, json.loads(data)
-
-
-def unpacked(packed, pins):
-    numbers = np.frombuffer(base64.b64decode(packed["data"]), "<i2") * packed["unit"]
-    return numbers.reshape(-1, pins)
-
-
-@pytest.mark.parametrize("kind", ALL)
-def test_page(kind, tmp_path):
-    path = tmp_path / "page.html"
-    found = ALL[kind]()
-    found.animate(path, duration=2.0)
-    text, data = data_of(path)
-    assert len(text.encode()) < 200_000 and "@" not in text.partition("<script")[0]
-    assert not re.search(r"https?://|\bsrc=|<link|@import|url\(", text)  # one file that needs no other
-    shown = film(found, duration=2.0)
-    shown = shown.thinned(data["frames"], data["pins"])
-    for figure, packed in zip(shown.figures, data["figures"], strict=True):
-        for name, values in (("re", figure.offset.real), ("im", figure.offset.imag), ("height", figure.height)):
-            read = unpacked(packed[name], data["pins"])
-            assert np.abs(read - values).max() <= packed[name]["unit"] * (0.5 + 1e-9)
-        assert packed["captions"] == list(figure.captions)
-        if packed["rate"] is None:
-            assert np.allclose(packed["phase"], figure.phase, rtol=1e-5)
-        else:
-            assert packed["rate"] == figure.speed[0] and data["scale"] == shown.time_scale
-
-
-def test_pages_of_long_chains_are_light(tmp_path):
-    chain = rc.Chain.uniform_rods(120, length=1.0)
-    path = tmp_path / "page.html"
-    released = 0.1 * np.linspace(1.0, 0.0, 121) ** 2
-    results = [
-        rc.modes(chain, 6),
-        rc.swing(chain, released, None, [0.0, 60.0]),
-        rc.modes(rc.Chain.uniform_rods(20_000), 6),
-    ]
-    for found in [*results, rc.branches(rc.Chain.uniform_rods(40, length=1.0), max_angular_speed=30.0)]:
-        found.animate(path)
-        assert path.stat().st_size < 200_000
-        assert data_of(path)[1]["pins"] >= 40
-
-
-BROWSER = """
-const drawn = { words: "", texts: [], paths: [] }, elements = {};
-const noted = (name, value) => { if (!Number.isFinite(value)) throw new Error(`${name} got ${value}`); };
-let path = [];
-const pen = new Proxy({}, {
-  get: (it, name) => it[name] ?? ((...given) => {
-    if (name === "fillText") { noted(name, given[1]); noted(name, given[2]); drawn.texts.push(given[0]); return; }
-    given.flat().forEach((value) => noted(String(name), value));
-    if (name === "beginPath") path = [];
-    if (name === "moveTo" || name === "lineTo") path.push(given);
-    if (name === "stroke") drawn.paths.push({ colour: it.strokeStyle, width: it.lineWidth, points: path });
-  }),
-  set: (it, name, value) => { it[name] = value; return true; },
-});
-const element = (id) => elements[id] ??= {
-  textContent: id === "data" ? DATA : "", value: 0, style: {}, clientWidth: 900, clientHeight: 500,
-  getContext: () => pen, remove() {},
-};
-globalThis.document = { getElementById: element };
-globalThis.window = { devicePixelRatio: 1, innerHeight: 700, addEventListener() {} };
-globalThis.matchMedia = () => ({ matches: true });
-globalThis.location = { hash: "#t=TIME" };
-globalThis.requestAnimationFrame = () => 0;
-"""
-
-
-@pytest.mark.parametrize("time", [0.7])
-@pytest.mark.parametrize("kind", ALL)
-def test_script_of_a_page(kind, time, tmp_path):
-    """It draws every pin where the film has it, by parallel projection, and says what the film says."""
-    node = shutil.which("node")
-    if node is None:
-        pytest.skip("node is not installed")
-    path = tmp_path / "page.html"
-    ALL[kind]().animate(path, duration=2.0)
-    text, data = data_of(path)
-    script = re.findall(r"<script>\n(.*?)</script>", text, re.DOTALL)[0]
-    (tmp_path / "page.js").write_text(
-        BROWSER.replace("DATA", json.dumps(json.dumps(data))).replace("TIME", str(time))
-        + f"(() => {{ {script} }})();"
-        + "\ndrawn.words = element('words').textContent;\nconsole.log(JSON.stringify(drawn));\n",
-        "utf-8",
-    )
-    done = subprocess.run([node, tmp_path / "page.js"], capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    drawn = json.loads(done.stdout)
-    shown = film(ALL[kind](), duration=2.0).thinned(data["frames"], data["pins"])
-    at = 0.0 if shown.is_rigid else time / shown.seconds * (shown.frames - 1)
-    frame = round(at)
-    assert drawn["words"].startswith(shown.words) and drawn["words"].endswith(
-        shown.clock[frame if len(shown.clock) > 1 else 0]
-    )
-    for figure in shown.figures:
-        assert all(line in drawn["texts"] for line in figure.caption(frame).splitlines())
-    chains = [
-        np.array(each["points"])
-        for each in drawn["paths"]
-        if len(each["points"]) == data["pins"] and each["width"] == 2
-    ]
-    assert len(chains) == len(shown.figures)
-    tilt, scales = 0.245, []
-    for figure, points in zip(shown.figures, chains, strict=True):
-        before, after = int(at), min(int(at) + 1, shown.frames - 1)
-        rows = [figure.offset[0 if figure.is_rigid else k] for k in (before, after)]
-        levels = [figure.heights(k) for k in (before, after)]
-        part = at - before
-        turned = (
-            figure.speed[0] * shown.time_scale * time
-            if figure.is_rigid
-            else np.interp(at, np.arange(shown.frames), figure.phase)
-        )
-        pins = (rows[0] * (1 - part) + rows[1] * part) * np.exp(1j * turned)
-        level = levels[0] * (1 - part) + levels[1] * part
-        flat = np.column_stack([pins.real, -(level * np.cos(tilt) + pins.imag * np.sin(tilt))])
-        flat, points = flat - flat[-1], points - points[-1]
-        scale = np.abs(points).max() / np.abs(flat).max()
-        assert np.abs(points - scale * flat).max() < 0.1  # pixels
-        scales.append(scale)
-    assert np.ptp(scales) < 1e-2 * scales[0]
-
-
-def test_words_of_a_page_are_safe(tmp_path):
-    path = tmp_path / "page.html"
-    film_ = rc.modes(CHAIN)
-    film_.animate(path)
-    text, data = data_of(path)
-    assert text.count("</script>") == 2 and "offsets exaggerated" in data["note"]
-
-
 # ---- what is refused
 
 
@@ -418,7 +277,7 @@ def test_nothing_to_show(tmp_path):
             "every pin is needed; compute the response without pins=",
         ),
         (rc.response(CHAIN, angular_speed=[]), "no speed to draw that is not a resonance"),
-        (rc.swing(CHAIN, RELEASED, None, [1.0]), "needs two times or more"),
+        (rc.swing(CHAIN, [1.0], offset=RELEASED), "needs two times or more"),
     ):
         with pytest.raises(ValueError, match=words):
             found.animate(path)
@@ -445,33 +304,27 @@ def test_the_view_of_a_notebook_is_the_page(tmp_path):
     shown = shapes.show(figures=[0], time_scale=0.5, height=500)._repr_html_()
     page = re.search(r'<iframe srcdoc="([^"]*)" style="width: 100%; height: 500px; border: 0"></iframe>', shown)[1]
     assert html.unescape(page) == (tmp_path / "shapes.html").read_text(encoding="utf-8")
-    shapes.to_html(tmp_path / "solid.html", figures=[0], time_scale=0.5)
-    shown = shapes.show(figures=[0], time_scale=0.5, solid=True)._repr_html_()
-    assert html.unescape(re.search(r'srcdoc="([^"]*)"', shown)[1]) == (tmp_path / "solid.html").read_text(encoding="utf-8")
     with pytest.raises(ValueError, match=r"revchain\.SteadyShapes\.show: no figure may turn more than 5000 times"):
-        shapes.show(duration=800, time_scale=1000.0, solid=True)
+        shapes.show(duration=800, time_scale=1000.0)
     with pytest.raises(ValueError, match=r"revchain\.SteadyShapes\.show: height must be positive and finite, got 0"):
         shapes.show(height=0)
 
 
 def test_packages_that_are_missing(python, without):
-    program = without("matplotlib", "PIL", "imageio_ffmpeg", "pygltflib", "meshio") + (
+    """Films need them; pages and 3D models do not."""
+    program = without("matplotlib", "PIL", "imageio_ffmpeg") + (
         "import revchain as rc\n"
         "m = rc.modes(rc.Chain.uniform_rods(12), 2)\n"
-        "for method, path in ((m.animate, 'a.gif'), (m.animate, 'a.mp4'), (m.to_glb, 'a.glb'),\n"
-        "                     (m.to_html, 'b.html'), (m.to_vtk, 'a.vtu')):\n"
-        "    try: method(path)\n"
+        "for path in ('a.gif', 'a.mp4'):\n"
+        "    try: m.animate(path)\n"
         "    except ImportError as error: print(error)\n"
-        "m.animate('a.html'); m.to_vtk('a.xdmf', duration=0.2)\n"
+        "m.animate('a.html'); m.to_glb('a.glb'); m.show()\n"
     )
     done = python("-c", program)
     assert done.returncode == 0, done.stderr
     assert done.stdout.splitlines() == [
         'a .gif film needs matplotlib: pip install "revchain[animate]"',
         'a .mp4 film needs matplotlib: pip install "revchain[animate]"',
-        'a .glb file needs pygltflib: pip install "revchain[exchange]"',
-        'a page with a solid needs pygltflib: pip install "revchain[exchange]"',
-        'a .vtu file needs meshio: pip install "revchain[exchange]"',
     ]
 
 
@@ -482,7 +335,7 @@ def test_every_kind_of_moving_result_is_here():
         return {of} | {each for kind in of.__subclasses__() for each in kinds(kind)}
 
     shown = {kind.__name__ for kind in kinds(Moving) if not kind.__name__.startswith("_")}
-    assert shown == {type(make()).__name__ for make in ALL.values()} | {"Moving", "Shape"}  # bases
+    assert shown == {type(make()).__name__ for make in ALL.values()} | {"Moving"}
 
 
 def test_speeds_of_both_directions_are_in_the_chart():

@@ -8,6 +8,7 @@ import pytest
 from mechanics import plummets, rods
 
 import revchain as rc
+from revchain import _core
 
 
 def test_one_link_is_the_conical_pendulum():
@@ -16,8 +17,8 @@ def test_one_link_is_the_conical_pendulum():
         shape = rc.steady_shape(chain, conical_height=2.0 * cosine)
         assert abs(shape.inclination[0] - math.acos(cosine)) <= 1e-15 * max(1.0, shape.condition)
     branch = rc.branch(chain, 1, min_conical_height=0.2)
-    assert np.allclose(np.cos(branch.tip_inclination), branch.conical_height / 2, rtol=0, atol=1e-13)
-    assert np.allclose(branch.tip_radius, 2 * np.sin(branch.tip_inclination), rtol=0, atol=1e-13)
+    assert np.allclose(np.cos(branch.lowest_inclination), branch.conical_height / 2, rtol=0, atol=1e-13)
+    assert np.allclose(branch.tip_radius, 2 * np.sin(branch.lowest_inclination), rtol=0, atol=1e-13)
     assert np.allclose(branch.top_tension, 2 / branch.conical_height, rtol=1e-12)  # W sec d
     assert np.allclose(branch.moment_of_inertia, branch.tip_radius**2, rtol=1e-12)
 
@@ -39,10 +40,10 @@ def test_what_is_asked_comes_back(make, links, mode):
         shape = rc.steady_shape(chain, mode=mode, conical_height=height)
         assert shape.conical_height == pytest.approx(height, rel=1e-15)
         assert shape.half_waves == mode
-        tip = {"tip_inclination": shape.inclination[0], "tip_radius": shape.offset[0]}
+        tip = {"lowest_inclination": shape.inclination[0], "tip_radius": shape.offset[0]}
         for name, value in {**tip, "top_tension": shape.tension[-1]}.items():
-            every = rc.steady_shape(chain, mode=mode, all=True, **{name: value})
-            assert isinstance(every, tuple)
+            every = rc.steady_shapes(chain, mode=mode, **{name: value})
+            assert every.mode == mode and every.angular_speed is None and every.speed.size == len(every)
             assert rc.steady_shape(chain, mode=mode, **{name: value}).conical_height == every[0].conical_height
             again = min(every, key=lambda state: abs(state.conical_height - height))
             assert again.conical_height == pytest.approx(height, rel=1e-13), name
@@ -79,14 +80,15 @@ def test_a_loop_between_the_heights_looked_at_is_found_by_the_proof():
     pytest.importorskip("matplotlib")
     chain = rc.Chain(weight=[12.1342, 26.048, 11.7601, 461.771], length=[1.4122, 2.89757, 7.23786, 1.03565])
     height = 0.0057 * chain.total_length
-    lists_alone = rc.branches(chain, min_conical_height=height, proof_budget=0)
+    lists_alone = _core.branches(chain._compiled, height, 16, 3_000_000, 0, 9.8, 1)
     assert lists_alone.consistent
     assert not lists_alone.complete
     assert "not excluded" in lists_alone.remark
-    proved = rc.branches(chain, min_conical_height=height, lists=1)
+    assert _core.branches(chain._compiled, height, 1, 3_000_000, 1_000_000, 9.8, 1).complete
+    proved = rc.branches(chain, min_conical_height=height)
     assert proved.complete
     assert proved.remark == "proved complete: no branch is missing"
-    assert len(proved) == len(lists_alone) + 1
+    assert len(proved) == len(lists_alone.branches) + 1
     (loop,) = [branch for branch in proved if branch.end == "closed"]
     assert loop.mode is None
     assert len(loop.folds) == 2
@@ -94,11 +96,17 @@ def test_a_loop_between_the_heights_looked_at_is_found_by_the_proof():
 
 
 def test_all_states_of_one_branch():
-    out_and_back = rc.steady_shape(plummets(3), mode=2, tip_radius=0.53, all=True)
-    assert len(out_and_back) == 2
+    out_and_back = rc.steady_shapes(plummets(3), mode=2, tip_radius=0.53)
+    assert len(out_and_back) == 2 and repr(out_and_back).startswith("2 shapes of the branch of mode 2\nshape  half waves  speed")
     assert out_and_back[0].conical_height > out_and_back[1].conical_height
     assert rc.steady_shape(plummets(3), mode=2, tip_radius=0.53).conical_height == out_and_back[0].conical_height
-    assert rc.steady_shape(plummets(3), mode=3, tip_radius=2.5, all=True) == ()
+    assert len(rc.steady_shapes(plummets(3), mode=3, tip_radius=2.5)) == 0
+    at_speed = rc.steady_shapes(plummets(3), mode=2, angular_speed=9.0)
+    assert len(at_speed) == 1 and at_speed.angular_speed == 9.0 and at_speed.speed is None
+    with pytest.raises(ValueError, match="tip_radius selects shapes of one branch; give mode, too, got tip_radius=2.5"):
+        rc.steady_shapes(plummets(3), tip_radius=2.5)
+    with pytest.raises(ValueError, match="mode is not available for a Held; use branches"):
+        rc.steady_shapes(rc.Held(plummets(3), span=1.0), mode=1, angular_speed=9.0)
 
 
 def test_windows_of_stability():
@@ -120,8 +128,9 @@ def test_points_and_shapes_agree():
     assert (np.diff(branch.arc) > 0).all()
     for point in (1, 5, -1):
         shape = branch.shape(point)
-        assert shape.inclination[0] == pytest.approx(branch.tip_inclination[point], abs=1e-12)
+        assert shape.inclination[0] == pytest.approx(branch.lowest_inclination[point], abs=1e-12)
         assert shape.offset[0] == pytest.approx(branch.tip_radius[point], abs=1e-12)
+        np.testing.assert_allclose(branch.inclination[point], shape.inclination, rtol=0, atol=1e-12)
         assert shape.conical_height == pytest.approx(branch.conical_height[point], rel=1e-12)
     with pytest.raises(ValueError, match="straight chain"):
         branch.shape(0)
@@ -139,10 +148,10 @@ def test_pictures():
         "3 half waves",
     ]
     (above,) = ax.child_axes  # speeds of births stand above the frame: no label hides a loop
-    assert [text.get_text() for text in above.get_xticklabels()] == ["6.0542"] and len(ax.texts) == 0
+    assert [text.get_text() for text in above.get_xticklabels()] == ["3.9038"] and len(ax.texts) == 0
     assert above.get_xlabel() == "pairs appear at"
     for thing in (diagram, diagram[0]):
-        quantities = ("tip_inclination", "tip_radius", "top_tension", "moment_of_inertia", "effective_energy")
+        quantities = ("lowest_inclination", "tip_radius", "top_tension", "moment_of_inertia", "effective_energy")
         labels = [thing.plot(quantity=quantity).get_ylabel() for quantity in quantities]
         ax.figure.canvas.draw()
         assert len(set(labels)) == 5 and labels[1].startswith("tip radius")
@@ -175,10 +184,10 @@ def test_branches_next_to_the_vertical(make, less):
     for mode in (1, 2, 3):
         height = min(heights[mode - 1] * (1 - less), np.nextafter(heights[mode - 1], 0))
         short = rc.branch(chain, mode, min_conical_height=height)
-        assert short.tip_inclination[0] == 0
+        assert short.lowest_inclination[0] == 0
         assert (short.end == "height") == (len(short) > 1)
         short.plot()
-        assert len(rc.branches(chain, min_conical_height=height, lists=2)) >= mode - 1
+        assert len(_core.branches(chain._compiled, height, 2, 3_000_000, 1_000_000, 9.8, 1).branches) >= mode - 1
         whole = rc.branch(chain, mode, min_conical_height=0.5 * heights[mode - 1])
         assert whole.at(conical_height=heights[mode - 1]) == ()
         (shape,) = whole.at(conical_height=height)
@@ -199,15 +208,15 @@ def test_diagrams_just_below_critical(count, less):
 
 
 THREE = rc.Chain(weight=1.0, length=[1.0, 1.0, 1.0])
-LARGE = [{"tip_inclination": 1.57}, {"tip_radius": 2.9999999}, {"top_tension": 3.00001}, {"top_tension": 3e3}]
-SMALL = [{f"tip_{name}": x} for name in ("inclination", "radius") for x in (1e-6, 1e-8, 1e-12)]
+LARGE = [{"lowest_inclination": 1.57}, {"tip_radius": 2.9999999}, {"top_tension": 3.00001}, {"top_tension": 3e3}]
+SMALL = [{name: x} for name in ("lowest_inclination", "tip_radius") for x in (1e-6, 1e-8, 1e-12)]
 
 
 @pytest.mark.parametrize("given", [*LARGE, *SMALL], ids=repr)
 def test_large_and_small_amplitudes_are_met(given):
     shape = rc.steady_shape(THREE, **given)
     ((name, value),) = given.items()
-    tip = {"tip_inclination": shape.inclination[0], "tip_radius": shape.offset[0]}
+    tip = {"lowest_inclination": shape.inclination[0], "tip_radius": shape.offset[0]}
     got = {**tip, "top_tension": shape.tension[-1]}[name]
     assert got == pytest.approx(value, rel=1e-12 if value > 1e-3 else 1e-15)
 
@@ -236,8 +245,8 @@ WRONG = [
     ({"mode": 3, "tip_radius": 2.5}, "not met on the branch of mode 3"),
     *(({"top_tension": x}, "top_tension must be more than the weight.*got") for x in (3.0, 2.0)),
     *(({"tip_radius": x}, "tip.radius.*got") for x in (3.0, 4.0, np.nan)),
-    *(({"tip_inclination": x}, "tip inclination must lie between 0 and pi/2.*got") for x in (np.pi / 2, 2.0)),
-    ({"tip_inclination": 0.0}, "tip_inclination must be positive and finite, got 0"),
+    *(({"lowest_inclination": x}, "lowest_inclination must lie between 0 and pi/2.*got") for x in (np.pi / 2, 2.0)),
+    ({"lowest_inclination": 0.0}, "lowest_inclination must be positive and finite, got 0"),
 ]
 
 
@@ -259,12 +268,9 @@ def test_wrong_calls():
         rc.branch(chain, 1, min_conical_height=0.1).stability_windows(frame="fixed")
     with pytest.raises(ValueError, match="tolerance must be positive"):
         rc.branch(chain, 1, min_conical_height=0.1).stability_windows(tolerance=0.0)
-    for name, value in (("top_tension", 1e7), ("tip_inclination", 1.5707963)):
+    for name, value in (("top_tension", 1e7), ("lowest_inclination", 1.5707963)):
         with pytest.raises(ValueError, match="give a smaller min_conical_height$"):
             rc.steady_shape(chain, **{name: value})
         assert rc.steady_shape(chain, **{name: value}, min_conical_height=1e-12).half_waves == 1
     with pytest.raises(ValueError, match="min_conical_height must be less than the conical height of the mode"):
         rc.steady_shape(chain, tip_radius=0.1, min_conical_height=first)
-    for value in ("yes", 2, None):
-        with pytest.raises(TypeError, match=f"all must be True or False, got {value!r}"):
-            rc.steady_shape(chain, tip_radius=0.1, all=value)

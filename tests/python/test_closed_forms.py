@@ -1,8 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One plummet, two links, the hoop and elliptic functions: balance of forces and mpmath, from the docstrings alone."""
 
+import importlib
+import inspect
 import itertools
 import math
+import pickle
+import pkgutil
+import re
+from operator import attrgetter
 
 import mpmath as mp
 import numpy as np
@@ -10,8 +16,11 @@ import pytest
 from exact import jacobi
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy import special
 
-from revchain import conical_pendulum, elliptic, hoop, plummet, two_links
+import revchain as rc
+from revchain import closed_forms, conical_pendulum, elliptic, hoop, plummet, two_links
+from revchain.closed_forms import table
 
 ULP = 2.0**-52
 NAN, INF = math.nan, math.inf
@@ -493,61 +502,50 @@ COMPLEMENTS = [1e-150, 1e-100, 1.9098631509497832e-75, 1e-30, 1e-9, 1e-3, 0.1, 0
 
 
 @pytest.mark.parametrize("complementary", COMPLEMENTS)
-def test_complete_integrals_within_1e_15(complementary):
+def test_scipy_has_the_complete_integrals_as_the_page_says(complementary):
     with mp.workdps(350):
         kc = mp.mpf(complementary)
-        m = 1 - kc**2
         K, D = mp.elliprf(0, kc**2, 1), mp.elliprd(0, kc**2, 1) / 3
-        exact = [K, K - m * D, D, K - D]
-        found = elliptic.complete(complementary_modulus=complementary)
-        assert ulps(found, exact) * ULP <= 1e-15
+        assert ulps(special.ellipkm1(complementary**2), K) * ULP <= 1e-15
+        assert ulps(special.ellipe((1 - complementary) * (1 + complementary)), K - (1 - kc**2) * D) * ULP <= 2e-15
+
+
+def test_scipy_has_no_jacobi_functions_near_modulus_1():
+    """Else this package needs none."""
+    for complementary, lost in [(1e-9, 0.1), (1e-5, 1e-9), (0.03, 1e-14)]:
+        u = 1.5 * float(mp.ellipk(1 - mp.mpf(complementary) ** 2))
+        sn, cn, dn = (float(value) for value, _ in jacobi(u, complementary)[1:4])
+        own = elliptic.jacobi(u, complementary_modulus=complementary)
+        theirs = special.ellipj(u, (1 - complementary) * (1 + complementary))
+        assert abs(own.dn / dn - 1) <= 1e-13 and abs(theirs[2] / dn - 1) > lost
 
 
 @pytest.mark.parametrize("modulus", [0.0, 1e-9, 0.3, 0.6, 0.9, 0.999999, 1 - 2**-53])
 def test_the_argument_is_the_modulus(modulus):
-    found = elliptic.complete(modulus=modulus)
     m = mp.mpf(modulus) ** 2
-    assert ulps(found[:2], [mp.ellipk(m), mp.ellipe(m)]) * ULP <= 3e-16
-    assert found.D + found.B == near(found.K, rel=2 * ULP)
-    assert ulps(elliptic.complete_pi(-0.7, modulus=modulus), mp.ellippi(-mp.mpf(0.7), m)) * ULP <= 1e-15
-    exact = [mp.ellipf(mp.mpf(1.1), m), mp.ellipe(mp.mpf(1.1), m)]
-    assert ulps(elliptic.incomplete(1.1, modulus=modulus)[:2], exact) * ULP <= 2e-15
     f = elliptic.jacobi(1.3, modulus=modulus)
     exact = [mp.ellipfun(kind, mp.mpf(1.3), m=m) for kind in ("sn", "cn", "dn")]
     np.testing.assert_allclose(f[1:4], [float(each) for each in exact], rtol=3e-15)
 
 
 def test_limits_of_the_modulus():
-    straight, round_ = elliptic.complete(modulus=[1.0, 0.0]), elliptic.complete(complementary_modulus=[0.0, 1.0])
-    for one, other in zip(straight, round_, strict=True):
-        assert one.tolist() == other.tolist()
-    assert straight.K.tolist() == [INF, math.pi / 2] and straight.E.tolist() == [1.0, math.pi / 2]
-    assert straight.D.tolist() == [INF, math.pi / 4] and straight.B.tolist() == [1.0, math.pi / 4]
-    assert elliptic.complete_pi([-2.0, 0.0, 0.5], modulus=1.0).tolist() == [INF] * 3
     u = np.array([-3.0, 0.0, 0.1, 2.0])
     f = elliptic.jacobi(u, modulus=1.0)
+    assert np.array_equal(f, elliptic.jacobi(u, complementary_modulus=0.0))
     np.testing.assert_allclose(f.sn, np.tanh(u), rtol=1e-15 * 2)
     np.testing.assert_allclose([f.cn, f.dn], [1 / np.cosh(u)] * 2, rtol=4e-15)
     np.testing.assert_allclose(f.amplitude, np.arctan(np.sinh(u)), rtol=2e-15)
     np.testing.assert_allclose(f.epsilon, np.tanh(u), rtol=2e-15)
     f = elliptic.jacobi(u, modulus=0.0)
+    assert np.array_equal(f, elliptic.jacobi(u, complementary_modulus=1.0))
     np.testing.assert_allclose(f.amplitude, u, rtol=1e-15)
     np.testing.assert_allclose([f.sn, f.cn], [np.sin(u), np.cos(u)], atol=1e-15 * 4)
     assert f.dn.tolist() == [1.0] * 4
 
 
-@pytest.mark.parametrize("complementary", COMPLEMENTS)
-@pytest.mark.parametrize("characteristic", [-1e12, -30.0, -1e-9, 0.0, 1e-9, 0.3, 0.999, 1 - 2**-50])
-def test_complete_integral_of_the_third_kind_within_1e_15(characteristic, complementary):
-    with mp.workdps(50):
-        n, kc = mp.mpf(characteristic), mp.mpf(complementary)
-        exact = mp.elliprf(0, kc**2, 1) + n / 3 * mp.elliprj(0, kc**2, 1, 1 - n)
-        assert ulps(elliptic.complete_pi(characteristic, complementary_modulus=complementary), exact) * ULP <= 1e-15
-
-
 @pytest.mark.parametrize("complementary", [1e-150, 1e-30, 1e-9, 1e-3, 0.1, 0.5, 0.9, 1 - 1e-12, 1.0])
 def test_jacobi_functions_within_1e_15(complementary):
-    K = float(elliptic.complete(complementary_modulus=complementary).K)
+    K = float(mp.elliprf(0, mp.mpf(complementary) ** 2, 1))
     times = [0.0, 1e-100, 1e-9, 0.3, -0.7, *(K * np.array([0.25, 0.5, 0.999, 1.0, 1.3, 2.0, 3.1, 57.0])), 1e6]
     found = elliptic.jacobi(times, complementary_modulus=complementary)
     worst = {}
@@ -576,10 +574,10 @@ def test_identities_of_jacobi_functions(u, modulus):
 @settings(max_examples=40)
 def test_amplitude_inverts_the_first_integral(u, modulus):
     f = elliptic.jacobi(u, modulus=modulus)
-    integral = elliptic.incomplete(f.amplitude, modulus=modulus)
+    first, second = (float(each(f.amplitude, mp.mpf(modulus) ** 2)) for each in (mp.ellipf, mp.ellipe))
     # d F = d amplitude / dn; dn is at least the complementary modulus
     slack = 1e-14 * (1 + abs(u)) / float(elliptic.jacobi(u, modulus=modulus).dn)
-    assert integral.F == pytest.approx(u, abs=slack) and integral.E == pytest.approx(f.epsilon, abs=slack)
+    assert first == pytest.approx(u, abs=slack) and second == pytest.approx(f.epsilon, abs=slack)
 
 
 @pytest.mark.parametrize("u", [1e15, -1e20, -1e50, 1e100, 1e308])
@@ -589,10 +587,10 @@ def test_jacobi_far_out(u, moduli):
     f = elliptic.jacobi(u, **moduli)
     k = moduli["modulus"]
     assert f.sn**2 + f.cn**2 == near(1, 1e-14) and f.dn**2 + k**2 * f.sn**2 == near(1, 1e-14)
-    whole = elliptic.complete(**moduli)
     if k < 1:
-        assert f.amplitude == near(u * (math.pi / 2 / whole.K), 1e-14)
-        assert f.epsilon == near(u * (whole.E / whole.K), 1e-14)
+        K, E = (float(each(mp.mpf(k) ** 2)) for each in (mp.ellipk, mp.ellipe))
+        assert f.amplitude == near(u * (math.pi / 2 / K), 1e-14)
+        assert f.epsilon == near(u * (E / K), 1e-14)
     else:
         assert (f.amplitude, f.epsilon) == (near(math.copysign(math.pi / 2, u), 1e-15), math.copysign(1, u))
 
@@ -634,11 +632,6 @@ EACH = [
     (hoop.speed, dict(tension=1.0, gravity=9.0)),
     (hoop.tension, dict(speed=1.0, gravity=9.0)),
     (hoop.string_revolutions_per_second, dict(span=1.0, tension=1.0, gravity=9.0)),
-    (elliptic.complete, dict(modulus=0.5)),
-    (elliptic.complete, dict(complementary_modulus=0.5)),
-    (elliptic.complete_pi, dict(characteristic=0.3, modulus=0.5)),
-    (elliptic.incomplete, dict(amplitude=1.0, modulus=0.5)),
-    (elliptic.incomplete_pi, dict(characteristic=0.3, amplitude=1.0, complementary_modulus=0.5)),
 ]
 SINGLE = [
     (two_links.two_plummets_shapes, dict(lower_weight=1, lower_thread=1, upper_weight=3, upper_thread=1, height=0.1)),
@@ -647,9 +640,39 @@ SINGLE = [
     (two_links.standing_plummet_shape, dict(standing_weight=1, rod=1, hung_weight=3, thread=2, height=0.9)),
     (two_links.jointed_links_shapes, dict(**JOINTED, height=0.4)),
 ]
+OTHERS = [
+    (elliptic.jacobi, dict(u=1.0, modulus=0.5)),
+    (elliptic.jacobi, dict(u=1.0, complementary_modulus=0.5)),
+    (plummet.carried_inclinations, dict(length=1.0, height=0.25, radius=0.1)),
+]
 spaced = lambda text: text.replace("_", " ")  # noqa: E731
 by_name = lambda value: getattr(value, "__name__", None)  # noqa: E731
 TAIL = {"two_plummets": (2,), "two_plummets_from_the_middle": (2,), "link_on_thread": (2,), "jointed_links": (2,)}
+
+
+def test_the_table():
+    """Each row is tested here, can be inspected, and has its sections; each word of the vocabulary is an argument."""
+    assert {form.name for form in table.FORMS.values()} | {"elliptic.jacobi"} == {
+        f"{function.__module__.rpartition('.')[2]}.{function.__name__}" for function, _ in [*EACH, *SINGLE, *OTHERS]
+    }
+    for name, form in table.FORMS.items():
+        function = attrgetter(name)(rc)
+        assert inspect.signature(function) == form.signature == inspect.signature(form.function)
+        assert inspect.getfullargspec(function).kwonlydefaults == inspect.getfullargspec(form.function).kwonlydefaults
+        for attribute in ("__module__", "__qualname__", "__annotations__"):
+            assert getattr(function, attribute) == getattr(form.function, attribute)
+        assert pickle.loads(pickle.dumps(function)) is function
+        lines = function.__doc__.splitlines()
+        assert {"Parameters", "Returns", "Raises", "Notes", "Examples"} <= set(lines)
+        assert all(f"{fact}: " in function.__doc__ for fact in ("Accuracy", "Cost", "Source"))
+        described = [line.split(" : ")[0] for line in lines if re.search(" : (array_like|float)", line)]
+        assert described == list(form.signature.parameters)
+    path = closed_forms.__path__
+    modules = [importlib.import_module(f"revchain.closed_forms.{each.name}") for each in pkgutil.iter_modules(path)]
+    owners = modules + [kind for module in modules for _, kind in inspect.getmembers(module, inspect.isclass)]
+    functions = [function for owner in owners for _, function in inspect.getmembers(owner, inspect.isfunction)]
+    arguments = {name for function in functions for name in inspect.signature(function).parameters}
+    assert {*table.POSITIVE, *table.NOT_NEGATIVE, *table.ANY} <= arguments
 
 
 def columns(result):
@@ -686,12 +709,8 @@ def test_whole_numbers_are_numbers(function, arguments):
         assert np.array_equal(one, other, equal_nan=True)
 
 
-SIGNED = {"x", "weight_ratio", "upper_centroid", "characteristic", "amplitude", "u"}
+SIGNED = {"x", "weight_ratio", "upper_centroid", "u"}
 ZERO_ALLOWED = {*SIGNED, "modulus", "complementary_modulus"}
-OTHERS = [
-    (elliptic.jacobi, dict(u=1.0, modulus=0.5)),
-    (plummet.carried_inclinations, dict(length=1.0, height=0.25, radius=0.1)),
-]
 CASES = [(*each, name) for each in [*EACH, *SINGLE, *OTHERS] for name in each[1]]
 
 
@@ -704,8 +723,6 @@ def test_refusals_name_the_place_and_the_parameter_and_the_value(function, argum
         bad = [1.5 if value is None else value for value in bad]
     unclear = []
     for value in bad:
-        if name == "characteristic" and value == -INF:
-            continue
         with pytest.raises(ValueError) as refusal:
             function(**{**arguments, name: value})
         text = str(refusal.value)
@@ -731,18 +748,10 @@ def test_threads_that_do_not_meet_are_refused(lengths):
         plummet.held_plummet(*lengths, 0.3)
 
 
-@pytest.mark.parametrize("function", [elliptic.complete, lambda **k: elliptic.complete_pi(0.1, **k)])
 @pytest.mark.parametrize("moduli", [{}, dict(modulus=0.5, complementary_modulus=0.5)])
-def test_exactly_one_modulus(function, moduli):
+def test_exactly_one_modulus(moduli):
     with pytest.raises(ValueError, match="modulus"):
-        function(**moduli)
-
-
-@pytest.mark.parametrize("characteristic", [1.0, 1.5, NAN, INF])
-def test_characteristics_beyond_the_principal_value_are_refused(characteristic):
-    for function in (elliptic.complete_pi, lambda n, **k: elliptic.incomplete_pi(n, 0.3, **k)):
-        with pytest.raises(ValueError, match="characteristic"):
-            function(characteristic, modulus=0.5)
+        elliptic.jacobi(0.1, **moduli)
 
 
 def test_nothing_is_silently_not_a_number():

@@ -32,15 +32,15 @@ def test_arrays_and_places_agree():
         for shape in rc.steady_shapes(Cord(1.0, **options), conical_height=0.01):
             assert shape.arc_length[0] == 0 and shape.arc_length[-1] == 1 and np.all(np.diff(shape.arc_length) >= 0)
             assert shape.offset[-1] == 0 and shape.height[-1] == 0 and shape.offset[0] > 0
-            place = shape.at(shape.arc_length)
+            place = shape.along(shape.arc_length)
             for name in ("offset", "height", "inclination"):
-                slack = 4 * shape.error_estimate
+                slack = 4 * shape.error_bound
                 np.testing.assert_allclose(getattr(place, name), getattr(shape, name), atol=slack, rtol=0)
             np.testing.assert_allclose(place.tension, shape.tension, rtol=1e-9)
             assert np.tan(shape.inclination[0]) == pytest.approx(shape.offset[0] / 0.01, rel=1e-12)
             assert not shape.offset.flags.writeable
-            assert shape.at(0.25).offset.shape == () and shape.at([[0.25]]).tension.shape == (1, 1)
-            assert shape.error_estimate < 2e-13 and shape.residual < 1e-14
+            assert shape.along(0.25).offset.shape == () and shape.along([[0.25]]).tension.shape == (1, 1)
+            assert shape.error_bound < 2e-13 and shape.residual < 1e-14
 
 
 def test_speed_and_height_are_one():
@@ -54,7 +54,7 @@ def test_small_amplitude_is_the_linear_mode():
     mode = rc.modes(Cord(1.0), 1, first=2)
     shape = rc.steady_shapes(Cord(1.0), conical_height=mode.conical_height[0] * (1 - 1e-6))[1]
     s = np.linspace(0, 1, 11)
-    np.testing.assert_allclose(shape.at(s).offset / shape.offset[0], mode.offset(s)[0], atol=1e-5)
+    np.testing.assert_allclose(shape.along(s).offset / shape.offset[0], mode.along(s)[0], atol=1e-5)
 
 
 def test_many_links_come_near():
@@ -62,7 +62,7 @@ def test_many_links_come_near():
     shapes = rc.steady_shapes(Cord(1.0), conical_height=0.1)
     assert len(links) == len(shapes) == 2
     for chain, curve in zip(links, shapes, strict=True):
-        assert np.abs(chain.offset - curve.at(np.linspace(0, 1, 9)).offset).max() < 0.02
+        assert np.abs(chain.offset - curve.along(np.linspace(0, 1, 9)).offset).max() < 0.02
 
 
 @pytest.mark.parametrize("tip", [0.0, 0.3])
@@ -124,7 +124,7 @@ def test_an_error_of_the_density_comes_through():
         ({"density": -1.0}, {}, "exponent"),
         ({"density": lambda s: -s}, {}, "must be positive"),
         ({"density": lambda s: "heavy"}, {}, "density.* must be a number without a unit, got 'heavy'$"),
-        ({}, {"scanned": 0}, "scanned must be from 1"),
+        ({}, {"budget": 0}, "budget must be from 1 to 1000000 offsets of the free end of a cord, got 0"),
     ],
 )
 def test_wrong_calls(cord, asked, message):
@@ -135,6 +135,6 @@ def test_wrong_calls(cord, asked, message):
 @pytest.mark.parametrize("wrong", [-0.1, 1.1, math.nan, [0.5, 2.0]])
 def test_places_outside_are_refused(wrong):
     with pytest.raises(ValueError, match="between 0 and the length"):
-        rc.steady_shapes(Cord(1.0), conical_height=0.1)[0].at(wrong)
+        rc.steady_shapes(Cord(1.0), conical_height=0.1)[0].along(wrong)
     with pytest.raises(ValueError, match="count must be at least 1"):
         rc.modes(Cord(1.0), 0)

@@ -96,7 +96,7 @@ def test_tip_mass_laws(log_tip, mode, log_length):
     # Weight at the end stretches the cord: slower than a cord of tip + length, faster than the string it becomes.
     assert (heights <= rc.modes(rc.Cord(tip + length), mode + 1).conical_height * (1 + 1e-14)).all()
     between = np.concatenate([[0], nodes]) / 2 + np.concatenate([nodes, [length]]) / 2
-    np.testing.assert_array_equal(np.sign(modes.offset(between)[mode - 1]), (-1.0) ** np.arange(mode))
+    np.testing.assert_array_equal(np.sign(modes.along(between)[mode - 1]), (-1.0) ** np.arange(mode))
     np.testing.assert_allclose(modes.slope(0.0) * heights, -1, rtol=1e-14)
 
 
@@ -142,8 +142,8 @@ def test_vertical_points_part_the_nodes(given_):
             np.testing.assert_allclose(modes.slope(vertical)[k] / steepest, 0, atol=1e-14)
     x, step = np.linspace(0.05, 0.65, 7), 1e-4
     wave = math.pi / np.diff(np.append(modes.nodes[5], length)).min()  # rad per length, at the most
-    difference = (modes.offset(x + step) - modes.offset(x - step)) / (2 * step)
-    size = wave * np.abs(modes.offset(np.linspace(0, length, 99))).max()
+    difference = (modes.along(x + step) - modes.along(x - step)) / (2 * step)
+    size = wave * np.abs(modes.along(np.linspace(0, length, 99))).max()
     np.testing.assert_allclose(modes.slope(x), difference, atol=size * (wave * step) ** 2)
 
 
@@ -161,7 +161,7 @@ def test_slope_and_kinetic_energy():
         at = np.minimum(height * z**2 / 4, 0.7)
         dx = weight * math.sqrt(0.7 / height) * height * z / 2
         energy = 0.7 * 0.7 * (0.1 * modes.slope(0.7)[0]) ** 2 / 2
-        offset, steep = 0.1 * modes.offset(at)[0], 0.1 * modes.slope(at)[0]
+        offset, steep = 0.1 * modes.along(at)[0], 0.1 * modes.slope(at)[0]
         assert (offset**2 * dx).sum() / (2 * height) == pytest.approx(energy, rel=1e-13)
         assert (at * steep**2 * dx).sum() / 2 == pytest.approx(energy, rel=1e-13)
 
@@ -173,7 +173,7 @@ def test_kinetic_energy_of_a_cord_that_tapers():
     node, part = np.polynomial.legendre.leggauss(60)
     s, ds = length * (node + 1) / 2, part * length / 2
     energy = weight * length * modes.slope(length) ** 2 / 2
-    kinetic = (modes.offset(s) ** 2 * 3 * weight * s**2 / length**3 * ds).sum(axis=1) / (2 * modes.conical_height)
+    kinetic = (modes.along(s) ** 2 * 3 * weight * s**2 / length**3 * ds).sum(axis=1) / (2 * modes.conical_height)
     potential = (modes.slope(s) ** 2 * weight * (s / length) ** 3 * ds).sum(axis=1) / 2
     np.testing.assert_allclose(kinetic, energy, rtol=1e-13)
     np.testing.assert_allclose(potential, energy, rtol=1e-13)
@@ -182,11 +182,11 @@ def test_kinetic_energy_of_a_cord_that_tapers():
 def test_places_of_one_number_and_of_many():
     for cord in (rc.Cord(1.0), tipped(2.0), rc.Cord(1.0, density=2.0), rc.Cord(1.0, density=lambda s: 1 + s)):
         modes, x = rc.modes(cord, 7), np.linspace(0, 1, 5)
-        for values in (modes.offset, modes.slope):
+        for values in (modes.along, modes.slope):
             assert values(x).shape == (7, 5) and values(0.75).shape == (7,)
             assert values(x)[6, 3] == values(0.75)[6] == getattr(one(cord, 7), values.__name__)(0.75)[0]
         none = rc.modes(cord, conical_height=(2.0, 3.0))
-        assert none.offset(x).shape == none.slope(x).shape == (0, 5) and none.nodes == none.vertical_points == ()
+        assert none.along(x).shape == none.slope(x).shape == (0, 5) and none.nodes == none.vertical_points == ()
     assert one(rc.Cord(1.0), 1).nodes[0].shape == one(rc.Cord(1.0), 1).vertical_points[0].shape == (0,)
 
 
@@ -216,8 +216,8 @@ def test_places_of_one_number_and_of_many():
         (lambda: rc.Cord(1.0, density=INF), "exponent of the density must be above -1 and at most 1e4, got inf"),
         (lambda: rc.Cord(1.0, density=NAN), "exponent of the density must be above -1 and at most 1e4, got nan"),
         *(
-            (lambda x=x, name=name: getattr(rc.modes(rc.Cord(1.0), 1), name)(x), f"revchain.CordModes.{name}: {words}")
-            for name in ("offset", "slope")
+            (lambda x=x, name=name: getattr(rc.modes(rc.Cord(1.0), 1), name)(x), f"revchain.Modes.{name}: {words}")
+            for name in ("along", "slope")
             for x, words in [
                 (1.5, "arc_length must lie between 0 and the length, got 1.5"),
                 (-0.1, "arc_length must lie between 0 and the length, got -0.1"),

@@ -64,7 +64,7 @@ def test_cord_without_gravity_is_the_skipping_rope(waves):
     of_cord = Held(rc.Cord(1.7, weight=1.7), span=1.0, weightless=True)
     cord = rc.steady_shapes(of_cord, angular_speed=3.0, max_half_waves=waves)[waves - 1]
     arc = np.linspace(0, 1.7, 31)
-    np.testing.assert_allclose(cord.at(arc).offset, rope.at_arc(arc).offset, rtol=0, atol=4e-15)
+    np.testing.assert_allclose(cord.along(arc).offset, rope.at_arc(arc).offset, rtol=0, atol=4e-15)
     # the rope's tensions are lengths of rope: of mass 1 per length
     assert cord.lower_pull[1] == pytest.approx(rope.tension_in_the_middle * 9.80665, rel=1e-13)
 
@@ -102,7 +102,7 @@ def test_held_links_tend_to_the_held_cord_with_gravity():
     for exact, *links in zip(limit, *held, strict=True):
         error = []
         for shape in links:
-            want = exact.at(np.linspace(0, 1, shape.offset.size)).offset
+            want = exact.along(np.linspace(0, 1, shape.offset.size)).offset
             error.append(np.abs(shape.offset - want * np.sign(shape.offset[1] * want[1])).max())
         assert error[0] / error[1] == pytest.approx(4, rel=0.2)
         assert error[1] / error[2] == pytest.approx(4, rel=0.2)
@@ -120,7 +120,7 @@ def test_weightless_links_tend_to_the_skipping_rope():
     assert error[1] / error[2] == pytest.approx(4, rel=0.15)
     # with gravity, as fast as you like: the same
     fast = rc.steady_shapes(Held(rc.Cord(1.0, weight=1.0), span=0.6), conical_height=1e-8)[0]
-    assert float(fast.at(0.5).offset) == pytest.approx(rope.sag, rel=1e-6)
+    assert float(fast.along(0.5).offset) == pytest.approx(rope.sag, rel=1e-6)
 
 
 @pytest.mark.parametrize(
@@ -139,7 +139,7 @@ def test_the_rope_with_gravity(length, span, height):
     first, arc = [0, 0, *cord.lower_pull], [0.3 * length, 0.5 * length, 0.8 * length, length]
     *inside, last = solve_ivp(change, (0, length), first, rtol=1e-12, atol=1e-14, method="DOP853", t_eval=arc).y.T
     np.testing.assert_allclose(last, [0, span, *(-cord.upper_pull)], rtol=0, atol=1e-10)
-    np.testing.assert_allclose(cord.at(arc[:3]).offset, [state[0] for state in inside], rtol=0, atol=1e-10)
+    np.testing.assert_allclose(cord.along(arc[:3]).offset, [state[0] for state in inside], rtol=0, atol=1e-10)
 
 
 def test_where_the_rope_folds():
@@ -292,7 +292,7 @@ def test_wrong_frame_and_arc():
     with pytest.raises(ValueError, match="weight must be"):
         rc.Cord(1.0, weight=0.0)
     with pytest.raises(ValueError, match="arc_length must lie between"):
-        rc.steady_shapes(CORD, conical_height=0.01)[0].at([0.5, 2.5])
+        rc.steady_shapes(CORD, conical_height=0.01)[0].along([0.5, 2.5])
 
 
 def test_plots():

@@ -44,12 +44,12 @@ def test_modes_under_a_tension(tension):
     assert np.array_equal(rc.modes(held, angular_speed=(0.0, float(m.angular_speed[0]) * 1.01)).number, [1, 2, 3, 4])
     again = type(m).from_dict(json.loads(json.dumps(m.to_dict()))) if hasattr(type(m), "from_dict") else m
     assert again is m or again == m
-    ends = m.offset([0.0, 2.0])
+    ends = m.along([0.0, 2.0])
     np.testing.assert_allclose(ends, 0.0, atol=1e-14)
     assert m.slope(0.0).min() > 0
     for k in range(3):
-        np.testing.assert_allclose(m.offset(m.nodes[k])[k], 0.0, atol=1e-14)
-        assert m.offset(m.vertical_points[k])[k].max() == pytest.approx(1.0, abs=1e-14)
+        np.testing.assert_allclose(m.along(m.nodes[k])[k], 0.0, atol=1e-14)
+        assert m.along(m.vertical_points[k])[k].max() == pytest.approx(1.0, abs=1e-14)
         # one below each node and one below the upper end
         edges = [0.0, *m.nodes[k], 2.0]
         assert all(low < x < high for low, x, high in zip(edges, m.vertical_points[k], edges[1:], strict=False))
@@ -70,7 +70,7 @@ def test_without_gravity_it_is_a_string():
         np.testing.assert_allclose(m.angular_speed, expected, rtol=1e-15)
         np.testing.assert_allclose(m.shape[2], np.sin(1.5 * np.pi * m.arc_length), atol=1e-14)
     with pytest.raises(ValueError, match="a system held by a tension in newtons has other modes"):
-        m.at(gravity=3.0)
+        m.with_gravity(3.0)
     assert rc.count_modes(STRING, angular_speed=[16.0, 32.0, 10.0]).tolist() == [1, 2, 0]
     by_weight = rc.Held(rc.Cord(2.0, weight=0.2), tension=10.0, weightless=True)  # 0.2 stands for a mass
     np.testing.assert_allclose(rc.modes(by_weight, 5).angular_speed, expected, rtol=1e-15)
@@ -117,7 +117,7 @@ def test_branches():
         same = rc.steady_shape(BOWED, mode=branch.mode, angular_speed=float(branch.angular_speed[point]))
         assert same.half_waves == branch.half_waves[point] or branch.mode > 3
         places = np.linspace(0.1, 1.9, 7)
-        np.testing.assert_allclose(same.at(places).offset, shape.at(places).offset, atol=1e-12)
+        np.testing.assert_allclose(same.along(places).offset, shape.along(places).offset, atol=1e-12)
         assert same.moment_of_inertia == pytest.approx(branch.moment_of_inertia[point], rel=1e-10)
         listed = rc.steady_shapes(BOWED, angular_speed=float(same.angular_speed), max_half_waves=branch.mode)
         assert any(abs(each.moment_of_inertia / same.moment_of_inertia - 1) < 1e-9 for each in listed)

@@ -21,7 +21,7 @@ PLOTS = {
     "branches": lambda: rc.branches(CHAIN, max_angular_speed=14.0).plot(),
     "branches_of_a_carousel": lambda: rc.branches(CAROUSEL, max_angular_speed=8.0).plot(),
     "response": lambda: rc.response(CHAIN, angular_speed=np.linspace(0.2, 9.0, 300), support_radius=0.01).plot(),
-    "swing": lambda: rc.swing(CHAIN, [0.05, 0.02, 0.01], None, np.linspace(0.0, 2.0, 9)).plot(),
+    "swing": lambda: rc.swing(CHAIN, np.linspace(0.0, 2.0, 9), offset=[0.05, 0.02, 0.01]).plot(),
     "force_diagram": lambda: rc.steady_shapes(CHAIN, angular_speed=4.0)[0].force_diagram().plot(),
     "blade": lambda: rc.steady_shapes(rc.Held(rc.Cord(24.0, mass=160.0), span=17.0), angular_speed=3.0).plot(),
     "bell": lambda: rc.bell_and_clapper(BELL).plot(),

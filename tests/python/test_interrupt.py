@@ -26,7 +26,7 @@ CALLS = {
     "modes of a cord": "rc.modes(rc.Cord(1.0, density=lambda s: 1 + s), 100_000)",
     "modes of a cord with a tip": "rc.modes(rc.Cord(1.0, tip_mass=0.1), 30_000_000)",
     "modes of a cord that tapers": "rc.modes(rc.Cord(1.0, density=0.7), 30_000_000)",
-    "shapes of modes of a cord": "rc.modes(rc.Cord(1.0), 5).offset(many / 50)",
+    "shapes of modes of a cord": "rc.modes(rc.Cord(1.0), 5).along(many / 50)",
     "slopes of modes of a cord": "rc.modes(rc.Cord(1.0, tip_mass=0.1), 5).slope(many / 50)",
     "nodes of a cord": "rc.modes(rc.Cord(1.0), 30_000).nodes",
     "vertical points of a cord": "rc.modes(rc.Cord(1.0, tip_mass=0.1), 30_000).vertical_points",
@@ -46,7 +46,6 @@ CALLS = {
     "tapered": "rc.Chain.tapered(5_000_000, length=1.0, exponent=1.5)",
     "GovernorMotion": "rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5).state(many)",
     "elliptic.jacobi": "rc.elliptic.jacobi(many, modulus=0.5)",
-    "elliptic.incomplete_pi": "rc.elliptic.incomplete_pi(0.3, many, modulus=0.5)",
 }
 SCRIPT = """
 import numpy as np

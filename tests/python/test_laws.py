@@ -127,5 +127,5 @@ def test_shapes_tend_to_bessel_functions():
     result, cord = rc.modes(rc.Chain.uniform_rods(n), count=4), rc.modes(rc.Cord(1.0), count=4)
     x = np.arange(n + 1) / n
     for mode in range(1, 5):
-        assert np.abs(result.shape[mode - 1] - cord.offset(x)[mode - 1]).max() < 20 * mode**2 / n**2 * np.log(n)
+        assert np.abs(result.shape[mode - 1] - cord.along(x)[mode - 1]).max() < 20 * mode**2 / n**2 * np.log(n)
         np.testing.assert_allclose(result.nodes[mode - 1], cord.nodes[mode - 1], atol=20 * mode**2 / n**2)

@@ -96,9 +96,9 @@ def test_shapes_satisfy_relation_21():
 def test_fields():
     chain = rc.Chain.uniform_rods(5, length=2.0)
     result = rc.modes(chain, count=3)
-    assert {name for name in dir(result) if name[0] != "_"} == set(rc.Modes._fields) | (
-        {"at", "plot", "save", "to_dataframe", "to_dict", "to_xarray", "uncertainty"}
-        | {"animate", "show", "to_glb", "to_html", "to_vtk"}
+    assert {name for name in dir(result) if name[0] != "_"} == {name for name in rc.Modes._fields if name[0] != "_"} | (
+        {"along", "slope", "with_gravity", "plot", "save", "to_dataframe", "to_dict", "to_xarray", "uncertainty"}
+        | {"animate", "show", "to_glb"}
     )
     assert result.system is chain and len(result) == 3 and result.gravity == 9.80665
     assert result.conical_height.shape == result.error_bound.shape == (3,)
@@ -129,8 +129,8 @@ def test_speeds():
     earth = rc.modes(chain)
     assert earth == rc.modes(chain, gravity=9.80665) != result
     earth.shape, earth.rpm  # noqa: B018
-    moved = earth.at(gravity=6.0)
-    assert moved == result and moved.shape is earth.shape and moved.at(gravity=9.80665) == earth
+    moved = earth.with_gravity(6.0)
+    assert moved == result and moved.shape is earth.shape and moved.with_gravity(9.80665) == earth
     for name in ("angular_speed", "period", "frequency", "rpm", "speed_error_bound"):
         assert np.array_equal(getattr(moved, name), getattr(result, name))
 
@@ -154,7 +154,7 @@ def test_gravity_refused(gravity):
         lambda: rc.modes(chain, gravity=gravity),
         lambda: rc.modes(chain, conical_height=(0.1, 1.0), gravity=gravity),
         lambda: rc.modes(rc.Rig(chain), gravity=gravity),
-        rc.modes(chain).at,
+        rc.modes(chain).with_gravity,
         lambda gravity=gravity: rc.count_modes(chain, angular_speed=[1.0, 2.0], gravity=gravity),
     ]
     several = isinstance(gravity, list)
@@ -253,12 +253,13 @@ def test_to_dict_is_ready_for_json():
     result = rc.modes(rc.Chain.uniform_rods(6, length=2.0, weight=3.0), count=2, gravity=1.62)
     data = result.to_dict()
     assert json.loads(json.dumps(data, allow_nan=False)) == data
-    assert list(data) == ["gravity", "method", "status", "precision", "system", "modes"]
+    facts = ["gravity", "method", "status", "precision", "complete", "other", "slack_link", "slack_speed", "system"]
+    assert list(data) == [*facts, "modes"] and data["complete"] is True and data["other"] == data["slack_link"] == []
     assert data["gravity"] == 1.62
     second = data["modes"][1]
     numbers = ["angular_speed", "frequency", "rpm", "period", "speed_error_bound", "conical_height", "error_bound", "residual"]
-    assert set(second) == {"mode", *numbers, "nodes", "shape"}
-    assert second["mode"] == 2
+    assert set(second) == {"mode", "direction", *numbers, "nodes", "shape"}
+    assert second["mode"] == 2 and second["direction"] == 1
     assert {name: second[name] for name in numbers} == {name: getattr(result, name)[1] for name in numbers}
     assert second["nodes"] == result.nodes[1].tolist() and len(second["nodes"]) == 1
     assert second["shape"] == result.shape[1].tolist()

@@ -44,7 +44,7 @@ def overlapping(axes):
 @pytest.mark.parametrize("modes", [None, [1], [8, 3], range(1, 9)])
 @pytest.mark.parametrize("gravity", [9.80665, 1.62e-7])
 def test_modes(modes, gravity):
-    result = RODS.at(gravity=gravity)
+    result = RODS.with_gravity(gravity)
     axes = result.plot(modes=modes)
     assert isinstance(axes, Axes)
     chosen = list(range(1, 7)) if modes is None else list(modes)

@@ -155,7 +155,7 @@ def test_swing(by, wheels):
         start[1] *= slow
         times = [float(t) for t in power(rng, 4, 3) / slow]
         try:
-            found = rc.swing(rig, *start, times)
+            found = rc.swing(rig, times, offset=start[0], velocity=start[1])
         except ValueError:  # something does not draw it back
             tally.refused += 1
             continue

@@ -253,7 +253,7 @@ def test_swing(size, bodies):
         chain = random_chain(generator, size)
     offset, velocity = generator.uniform(-0.1, 0.1, (2, size)) * (0.1 if bodies else 1)
     time = np.array([0.0, 0.3, 0.7, -1.7, -3.0, 12.0, 1000.0, 1e5, 1e10])
-    found = rc.swing(chain, offset, velocity, time)
+    found = rc.swing(chain, time, offset=offset, velocity=velocity)
     assert not found.projected and found.truncation_error.max() < 1e-28
     with mp.workdps(60):
         for i, exact in enumerate(exact_swing(chain, offset.tolist(), velocity.tolist(), map(mp.mpf, time.tolist()))):
@@ -269,7 +269,7 @@ def test_swing(size, bodies):
 
 def test_energy(chain):
     start = np.array([0.1, 0.05, -0.02, 0.03, 0.0, 0.0])
-    swing = rc.swing(chain, start, -3 * start, np.linspace(0, 10, 7))
+    swing = rc.swing(chain, np.linspace(0, 10, 7), offset=start, velocity=-3 * start)
     stretch = np.diff(swing.offset, axis=1)
     below = np.concatenate([[0.0], np.cumsum(chain.weight)[:-1]])
     stiffness = (chain.weight * chain.centroid / chain.length + below) / chain.length
@@ -290,12 +290,12 @@ def test_modes_kept(chain, size):
         start = 0.05 * np.interp(np.arange(40), [0, 20, 40], [0, 1, 0])
         # energy of the start: chords of 1/20, sum S (dy)^2 / (2 a)
         energy = 0.5 * (np.arange(1, 41) / 40 * np.diff([*start, 0.0]) ** 2 / (2.0 / 40)).sum()
-        assert rc.swing(chain, start, None, time).energy.sum() == pytest.approx(energy, rel=1e-13)
-    whole = rc.swing(chain, start, None, time)
+        assert rc.swing(chain, time, offset=start).energy.sum() == pytest.approx(energy, rel=1e-13)
+    whole = rc.swing(chain, time, offset=start)
     assert whole.offset[0] == pytest.approx([*start, 0.0], abs=1e-16 if size == 40 else 3e-16)
     left = np.inf
     for kept in range(0, size + 1, 1 if size == 5 else 3):
-        some = rc.swing(chain, start, None, time, count=kept)
+        some = rc.swing(chain, time, offset=start, count=kept)
         assert some.energy.size == kept
         assert (np.abs(some.offset - whole.offset) <= some.truncation_error + (1e-14 if size == 5 else 1e-15)).all()
         assert some.energy_left_out == pytest.approx(whole.energy[kept:].sum(), rel=1e-9, abs=1e-25)
@@ -305,12 +305,12 @@ def test_modes_kept(chain, size):
 
 def test_massless_pins_are_snapped_straight():
     chain = rc.Chain(weight=[2.0, 0.0], length=1.0)
-    swing = rc.swing(chain, [0.02, 0.5], None, 0.0)
+    swing = rc.swing(chain, 0.0, offset=[0.02, 0.5])
     assert swing.projected and swing.start.tolist() == [0.02, 0.01, 0.0]
-    assert not rc.swing(chain, [0.02, 0.01], None, 0.0).projected
+    assert not rc.swing(chain, 0.0, offset=[0.02, 0.01]).projected
     assert repr(swing).startswith("1 mode; of the energy 100 % in mode 1")
     chain = rc.Chain(weight=[1.0, 0.0, 0.0], length=[1.0, 0.5, 0.5])
-    swing = rc.swing(chain, [0.1, 0.5, -0.3, 0.0], None, [0.0, 1.0])
+    swing = rc.swing(chain, [0.0, 1.0], offset=[0.1, 0.5, -0.3, 0.0])
     straight = np.array([0.1, 0.05, 0.025, 0.0])
     assert swing.projected and swing.start == pytest.approx(straight, rel=1e-14)
     assert swing.offset[1] == pytest.approx(straight * math.cos(math.sqrt(G / 2)), abs=1e-16)
@@ -322,7 +322,7 @@ def test_a_plucked_chain_let_go_in_full():
     shape, times, off = np.array([0.0, 0.3, 0.6, 1.0, 0.5, 0.0]), np.linspace(0, 3.0, 7), []
     for size in (2e-3, 2e-4):
         start = size * shape
-        linear = rc.swing(chain, start, None, times).offset
+        linear = rc.swing(chain, times, offset=start).offset
         lean = np.arcsin((start[:-1] - start[1:]) / chain.length)
         x = Motion(rc.Rig(chain), 1.0).after(3.0, lean, 0.0, t_eval=times)[:5, 0]  # sines of inclinations
         y = np.cumsum((x * 0.2)[::-1], axis=0)[::-1].T
@@ -335,10 +335,10 @@ def test_swing_of_the_continuous_chain():
     # started in the shape of its second mode, a fine chain keeps it
     chain = rc.Chain.uniform_rods(400, length=1.0)
     second = rc.modes(rc.Cord(1.0), 1, first=2, gravity=G)
-    start = 1e-3 * second.offset(np.linspace(0, 1, 401))[0]
+    start = 1e-3 * second.along(np.linspace(0, 1, 401))[0]
     start[-1] = 0.0
     (n,) = second.angular_speed
-    found = rc.swing(chain, start, None, [0.0, math.pi / n, 2 * math.pi / n])
+    found = rc.swing(chain, [0.0, math.pi / n, 2 * math.pi / n], offset=start)
     assert found.offset[1] == pytest.approx(-start, abs=2e-7)
     assert found.offset[2] == pytest.approx(start, abs=2e-7)
 
@@ -359,7 +359,7 @@ def test_swing_of_the_continuous_chain():
 )
 def test_wrong_swing(chain, given, message):
     with pytest.raises(ValueError, match=r"swing: .*" + message):
-        rc.swing(chain, *given[:3], **({"count": given[3]} if len(given) == 4 else {}))
+        rc.swing(chain, given[2], offset=given[0], velocity=given[1], count=given[3] if len(given) == 4 else None)
 
 
 @pytest.mark.parametrize("inverted", [False, True])
@@ -393,7 +393,7 @@ def test_plots(chain):
         found.plot(pins=[9])
     with pytest.raises(ValueError, match="no speed to draw"):
         rc.response(chain, conical_height=[]).plot()
-    swing = rc.swing(chain, [0.1] * 5, None, np.linspace(0, 2, 9))
+    swing = rc.swing(chain, np.linspace(0, 2, 9), offset=[0.1] * 5)
     assert len(swing.plot().get_legend().get_texts()) == 9
     assert swing.plot(kind="time", pins=[0, 4]).get_ylabel() == "distance from axis (m)"
     with pytest.raises(ValueError, match="kind must be"):

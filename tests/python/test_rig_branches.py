@@ -49,11 +49,11 @@ def test_a_chair_on_an_arm_by_its_closed_form():
     """One thread: lambda tan d = b + l sin d; the pair inwards is born where both sides and their slopes agree."""
     out, inwards = rc.branches(CAROUSEL, max_angular_speed=4.0)
     for branch in (out, inwards):
-        d = branch.tip_inclination
+        d = branch.lowest_inclination
         assert np.allclose(branch.conical_height * np.tan(d), 1 + 4 * np.sin(d), rtol=1e-10, atol=1e-10)
     assert (out.birth, inwards.birth, inwards.mode) == ("rest", "fold", None)
     assert out.folds.size == 0 and (np.diff(out.angular_speed) > 0).all()
-    fold = inwards.tip_inclination[inwards.folds[0]]
+    fold = inwards.lowest_inclination[inwards.folds[0]]
     assert np.sin(fold) == pytest.approx(-((1 / 4) ** (1 / 3)), abs=1e-6)  # sin d = -(b/l)^(1/3)
     height = 4 * np.cos(fold) ** 3
     assert inwards.conical_height.max() == pytest.approx(4 * (1 - (1 / 4) ** (2 / 3)) ** 1.5, rel=1e-12)
@@ -68,11 +68,11 @@ def test_what_is_asked_of_the_branch_from_rest_comes_back():
         (same,) = (s for s in rc.steady_shapes(CAROUSEL, angular_speed=speed) if s.inclination[0] > 0)
         assert np.abs(same.inclination - shape.inclination).max() <= 4.5e-16
         assert shape.stability().verdict == "minimum"
-    tip = {"tip_inclination": shape.inclination[0], "tip_radius": shape.offset[0], "top_tension": shape.tension[-1]}
+    tip = {"lowest_inclination": shape.inclination[0], "tip_radius": shape.offset[0], "top_tension": shape.tension[-1]}
     for name, value in tip.items():
         assert rc.steady_shape(CAROUSEL, **{name: value}).angular_speed == pytest.approx(3.0, rel=1e-13), name
-        assert len(rc.steady_shape(CAROUSEL, all=True, **{name: value})) == 1
-    assert rc.steady_shape(CAROUSEL, tip_inclination="30 deg").conical_height == pytest.approx(3 / math.tan(math.pi / 6))
+        assert len(rc.steady_shapes(CAROUSEL, mode=1, **{name: value})) == 1
+    assert rc.steady_shape(CAROUSEL, lowest_inclination="30 deg").conical_height == pytest.approx(3 / math.tan(math.pi / 6))
 
 
 def test_windows_of_stability_of_a_rig():
@@ -125,12 +125,13 @@ def test_links_that_stand_and_floats():
     assert not diagram.complete and "all hang in tension" in diagram.remark
     (shape,) = diagram[0].at(angular_speed=0.4)
     assert abs(shape.inclination[0]) > math.pi / 2 and figure_moments(standing, shape) <= 1e-14
+    np.testing.assert_allclose(diagram[0].inclination[-1], diagram[0].shape(-1).inclination, rtol=0, atol=1e-12)
     listed = rc.steady_shapes(standing, angular_speed=0.4)
     assert min(np.abs(each.inclination - shape.inclination).max() for each in listed) < 1e-13
     back = rc.steady_shape(standing, tip_radius=shape.offset[0])
     assert back.angular_speed == pytest.approx(0.4, rel=1e-12)
     with pytest.raises(ValueError, match="between pi/2 and pi, since the lowest link stands"):
-        rc.steady_shape(standing, tip_inclination=1.0)
+        rc.steady_shape(standing, lowest_inclination=1.0)
 
 
 def test_results_are_values(tmp_path):

@@ -84,8 +84,7 @@ FILES = {
     "no speed": (LINK + "[ask.branches]\n", "4:1 ask.branches: give max_angular_speed or min_conical_height: at which speed"),
     "a range without its end": (LINK + "[ask.response]\nangular_speed = {from = 1}\n", "5:1 ask.response.angular_speed.to: is missing"),
     "a study": ('scene = "a.toml"\n[vary."links[0].mass"]\nvalues = [1]\n', "2:1 vary: is of a study, not of a scene: revchain sweep a.toml"),
-    "version 1": (LINK + "[ask]\nmodes = 3\n[ask.shapes]\nsense = 1\nangular_speed = 3\n", "5:1 ask.modes: is of version 1: write [ask.modes] count = 3; revchain validate --upgrade rewrites the file\n6:1 ask.shapes: is of version 1: write [ask.shapes] angular_speed = 3, direction = 1; revchain validate --upgrade rewrites the file"),
-    "perhaps version 1": (LINK + "[ask.response]\nangular_speed = [1, 2]\n", "4:1 ask.response: may be of version 1: write [ask.response] angular_speed = {from = 1, to = 2, steps = 200}, or schema_version = 2 at the top; revchain validate --upgrade rewrites the file"),
+    "a number for a table": (LINK + "[ask]\nmodes = 3\n", "5:1 ask.modes: must be a table, got 3"),
     "the name of the link": ('[[links]]\nmass = 1\nlength = 0\nname = "bell"\n', '3:1 links[0].length ("bell"): must be positive, got 0'),
     "key twice": ("[[links]]\nmass = 1\nmass = 2\n", "3:9 is there twice"),
     "no value": ("[[links]]\nmass =\nlength = 1\n", "2:7 a value is missing here, or is none: write a number, or text in quotes"),
@@ -242,8 +241,7 @@ DATA = {
     "gravity 0": ({"links": [ONE], "gravity": 0}, "gravity: must be positive, got 0"),
     "gravity of another kind": ({"links": [ONE], "gravity": "9.81 m"}, "gravity: must be an acceleration"),
     "another version": ({"links": [ONE], "schema_version": 3}, "schema_version: must be 2, got 3"),
-    "version 1": ({"links": [ONE], "schema_version": 1}, "schema_version: is of version 1: write schema_version = 2"),
-    "no number below ask": ({"ask": {"modes": 3, "shapes": math.nan}, "links": [ONE]}, "ask.modes: is of version 1"),
+    "no number below ask": ({"ask": {"modes": 3, "shapes": math.nan}, "links": [ONE]}, "ask.modes: must be a table, got 3"),
     "no table at all": ([], "must be a table"),
     "keys that are no text": ({1: 2}, "every key must be text"),
     "spring 0": ({"links": [ROD], "support": {"stiffness": 0}}, "support.stiffness: must be positive, got 0"),
@@ -333,58 +331,6 @@ def test_files_that_cannot_be_read(tmp_path):
         rc.load_scene(tmp_path / "latin.toml")
 
 
-OLD = """# a comment
-[[links]]
-mass = 1   # kg
-length = 1
-repeat = 3
-[ask]    # what is asked
-modes = "all"   # of them
-method = "auto"
-[ask.shapes]
-sense = -1   # backward
-any_posture = true
-angular_speed = 3
-[ask.response]
-angular_speed = ["1 rpm", "3 rpm"]  # both ends
-steps = 30
-[ask.swing]
-offset = [1, 0, 0]
-until = 3   # s
-"""
-
-
-def test_files_of_version_1_are_rewritten(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    Path("a.toml").write_text(OLD)
-    assert _cli.run(["validate", "a.toml"]) == 3 and Path("a.toml").read_text() == OLD
-    assert _cli.run(["validate", "--upgrade", "a.toml"]) == 0
-    assert Path("a.toml").read_text() == """# a comment
-[[links]]
-mass = 1   # kg
-length = 1
-repeat = 3
-[ask.modes]    # what is asked
-count = "all"   # of them
-[ask.shapes]
-angular_speed = 3
-direction = -1  # backward
-hanging_only = false
-[ask.response]
-angular_speed = {from = "1 rpm", to = "3 rpm", steps = 30}  # both ends
-[ask.swing]
-offset = [1, 0, 0]
-time = {to = 3, steps = 201}  # s
-"""
-    Path("b.json").write_text(json.dumps({"links": [ONE], "ask": {"first": 1, "response": {"conical_height": [2.0]}}}))
-    assert _cli.run(["validate", "--upgrade", "a.toml", "b.json"]) == 0
-    assert json.loads(Path("b.json").read_text())["ask"] == {"response": {"conical_height": 2.0}, "modes": {"first": 1}}
-    assert capsys.readouterr().out.count("wrote") == 2  # nothing was wrong with the first any more
-    for text in ("ask = {modes = 1}\n" + LINK, "ask.modes = 1\n" + LINK, LINK + "[ask]\nmodes = 1\n[support]\nradius = 1\n[ask.shapes]\nangular_speed=1"):
-        Path("c.toml").write_text(text)
-        assert _cli.run(["validate", "--upgrade", "c.toml"]) == 0 and rc.load_scene("c.toml").ask.modes.count == 1
-
-
 DEEP = {
     "lists.toml": f"links = {'[' * 33}{']' * 33}",
     "tables.toml": f"{'a.' * 33}b = 1",
@@ -471,10 +417,3 @@ def test_the_work_for_many_problems_grows_with_their_number():
         return result
 
     assert 0 < asked(2000) < 3 * asked(1000)
-
-
-@pytest.mark.parametrize("data", [{"ask": 0.5}, {"held": 0.5}, {"ask": {"response": {"angular_speed": []}}}], ids=repr)
-def test_tables_of_version_1_that_are_none(data):
-    with pytest.raises(rc.SceneError) as caught:
-        rc.Scene.from_dict({"links": [ONE], "schema_version": 1, **data})
-    assert caught.value.key == "schema_version" and caught.value.reason.startswith("is of version 1")

@@ -81,8 +81,8 @@ def test_what_a_scene_asks_is_what_the_functions_give():
     assert scene(CAROUSEL).response(angular_speed=np.ones(3), support_radius="1 cm").support_radius == 0.01
 
     swing = scene({"links": LINKS}, swing={"offset": ["2 cm", 0], "velocity": [0, "1 cm/s"], "time": {"to": 2, "steps": 5}})
-    assert swing.swing() == rc.swing(chain, [0.02, 0.0], [0.0, 0.01], np.linspace(0, 2, 5))
-    assert swing.swing(count=1, time=3.0) == rc.swing(chain, [0.02, 0.0], [0.0, 0.01], 3.0, count=1)
+    assert swing.swing() == rc.swing(chain, np.linspace(0, 2, 5), offset=[0.02, 0.0], velocity=[0.0, 0.01])
+    assert swing.swing(count=1, time=3.0) == rc.swing(chain, 3.0, offset=[0.02, 0.0], velocity=[0.0, 0.01], count=1)
     diagram = scene({"links": LINKS}, branches={"max_angular_speed": "120 rpm"}).branches()
     assert diagram == rc.branches(chain, max_angular_speed=4 * np.pi) and len(diagram) == 2
 

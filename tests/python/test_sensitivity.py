@@ -396,7 +396,7 @@ def test_uncertainty_of_a_rig_is_that_of_a_sample():
     assert (u.angular_speed >= alone.angular_speed).all()
     np.testing.assert_allclose(u.relative, 2 * u.angular_speed / np.abs(found.angular_speed), rtol=1e-15)
     np.testing.assert_allclose(u.period / found.period, 0.5 * u.relative, rtol=1e-15)
-    share = sum(u.share[name].sum(axis=1) if u.share[name].ndim == 2 else u.share[name] for name in u.share._known)
+    share = sum(u.share[name].sum(axis=1) if u.share[name].ndim == 2 else u.share[name] for name in u.share.data)
     np.testing.assert_allclose(share, 1.0, rtol=1e-14)
 
 
@@ -424,7 +424,7 @@ def test_uncertainty_of_a_rig_in_all_its_forms():
         ({"spin": 1.0, "momentum": 1.0}, "give either spin or momentum"),
         ({"weight": 1.0}, "given by mass: give mass, not weight"),
     ]:
-        with pytest.raises(ValueError, match=f"^revchain.RigModes.uncertainty: .*{message}"):
+        with pytest.raises(ValueError, match=f"^revchain.Modes.uncertainty: .*{message}"):
             found.uncertainty(**wrong)
     by_momentum = rc.modes(rc.Rig(chain, flywheels=rc.Flywheel(momentum=1.0)))
     with pytest.raises(ValueError, match="spin is for flywheels that were given by spin; give momentum, got 1"):

@@ -1,11 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Solids and grids: what is in the files is what the results have."""
-
-from xml.etree import ElementTree
+"""3D models: what is in the files is what the results have. They are read by pygltflib."""
 
 import numpy as np
 import pytest
-from moving import ALL, CHAIN, ONE, TIMES, WHEELS, film
+from moving import ALL, CHAIN, ONE, WHEELS, film
 
 import revchain as rc
 
@@ -182,96 +180,6 @@ def test_refused(tmp_path):
     found = rc.modes(CHAIN)
     with pytest.raises(ValueError, match=r"Modes\.to_glb: path must end in \.glb, got a\.gltf"):
         found.to_glb("a.gltf")
-    with pytest.raises(ValueError, match=r"Modes\.to_vtk: path must end in \.vtu, \.vtk, \.xdmf, got a\.stl"):
-        found.to_vtk("a.stl")
-    with pytest.raises(
-        ValueError, match=r"Swing\.to_vtk: this result is another at every instant; path must end in \.xdmf"
-    ):
-        ONE["swing"]().to_vtk(tmp_path / "a.vtu")
     with pytest.raises(ValueError, match=r"Modes\.to_glb: figures|mode must be from 1 to 3, got 0"):
         found.to_glb(tmp_path / "a.glb", figures=[0])
     assert list(tmp_path.iterdir()) == []
-
-
-# ---- grids
-
-
-@pytest.mark.parametrize("ending", [".vtu", ".vtk"])
-def test_grids(ending, tmp_path):
-    meshio = pytest.importorskip("meshio")
-    shapes = rc.steady_shapes(CHAIN, angular_speed=9.0)
-    shapes.to_vtk(tmp_path / f"grid{ending}")
-    read = meshio.read(tmp_path / f"grid{ending}")
-    [block] = read.cells
-    assert block.type == "line" and len(block.data) == 3 * len(shapes)
-    at = film(shapes)
-    first = 0.0
-    for nth, shape in enumerate(shapes):
-        pins = slice(4 * nth, 4 * nth + 4)
-        links = slice(3 * nth, 3 * nth + 3)
-        across = read.points[pins][-1, 0]
-        assert np.allclose(
-            read.points[pins], np.column_stack([across + shape.offset, 0 * shape.offset, shape.height]), atol=1e-14
-        )
-        assert np.array_equal(read.point_data["offset"][pins, 0], shape.offset)
-        assert np.allclose(read.point_data["velocity"][pins, 1], shape.angular_speed * shape.offset, rtol=1e-15)
-        assert np.array_equal(read.cell_data["tension"][0][links], shape.tension)
-        assert (read.cell_data["figure"][0][links] == nth).all() and read.cell_data["link"][0][links].tolist() == [
-            0,
-            1,
-            2,
-        ]
-        assert np.array_equal(block.data[links], np.column_stack([np.arange(3), np.arange(1, 4)]) + 4 * nth)
-        assert across >= first
-        first = across + np.abs(shape.offset).max()
-    assert len(at.figures) == len(shapes)
-
-
-def items(parent):
-    return {
-        each.get("Name"): np.array(each.find("DataItem").text.split(), float).reshape(
-            [*map(int, each.find("DataItem").get("Dimensions").split())]
-        )
-        for each in parent.findall("Attribute")
-    }
-
-
-def test_xdmf_of_a_swing(tmp_path):
-    found = ONE["swing"]()
-    found.to_vtk(tmp_path / "swing.xdmf", time_scale=1.0, frames_per_second=10.0)
-    grids = ElementTree.parse(tmp_path / "swing.xdmf").findall("./Domain/Grid/Grid")
-    assert len(grids) == TIMES.size - 1
-    for k, grid in enumerate(grids):
-        assert abs(float(grid.find("Time").get("Value")) - (TIMES[k] - TIMES[0])) < 1e-12
-        offset = items(grid)["offset"]
-        assert np.abs(offset[:, 0] - found.offset[k]).max() < 1e-14 and not offset[:, 1:].any()
-    assert "velocity" not in items(grids[0])
-
-
-def test_xdmf_of_modes(tmp_path):
-    found = rc.modes(WHEELS)
-    found.to_vtk(tmp_path / "modes.xdmf", time_scale=0.01, duration=1.0, figures=[1])
-    grids = ElementTree.parse(tmp_path / "modes.xdmf").findall("./Domain/Grid/Grid")
-    rows = np.flatnonzero(found.number == 1)
-    for frame in (0, 11, 24):
-        time = float(grids[frame].find("Time").get("Value"))
-        assert abs(time - 0.01 * frame / 25) < 1e-15
-        read = items(grids[frame])
-        for nth, row in enumerate(rows):
-            pins = slice(5 * nth, 5 * nth + 5)
-            where = found.shape[row] * np.exp(1j * found.angular_speed[row] * time)
-            assert np.allclose(read["offset"][pins, 0] + 1j * read["offset"][pins, 1], where, atol=1e-14)
-            moved = 1j * found.angular_speed[row] * where
-            assert np.allclose(
-                read["velocity"][pins, 0] + 1j * read["velocity"][pins, 1], moved, rtol=1e-12, atol=1e-12
-            )
-            assert (read["angular_speed"][4 * nth : 4 * nth + 4] == found.angular_speed[row]).all()
-
-
-def test_tensions_of_a_blade_are_at_its_pins(tmp_path):
-    meshio = pytest.importorskip("meshio")
-    shapes = ALL["shapes of a blade"]()
-    shapes.to_vtk(tmp_path / "blade.vtu")
-    read = meshio.read(tmp_path / "blade.vtu")
-    assert np.array_equal(read.point_data["tension"], np.concatenate([shape.tension for shape in shapes]))
-    assert "tension" not in read.cell_data

@@ -97,6 +97,7 @@ def test_scene():
 
 
 def test_study():
+    pytest.importorskip("xarray")
     scene = {"tapered_chain": {"count": 12, "exponent": 1.0, "length": 1.0, "mass": 1.0}, "ask": {"modes": {"count": 2}}}
     found = rc.sweep({"scene": scene, "vary": {"tapered_chain.exponent": {"values": [-0.5, 0.0, 2.0]}}})
     for row, exponent in zip(found["conical_height"], (-0.5, 0.0, 2.0), strict=True):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pages with a solid: they hold the file of `to_glb`, load nothing, and a browser shows all of it."""
+"""Pages: they contain the file of `to_glb`, load nothing, and a browser shows all of it."""
 
 import base64
 import html
@@ -10,6 +10,7 @@ import subprocess
 from importlib.resources import files
 from pathlib import Path
 
+import numpy as np
 import pytest
 from moving import ALL, CHAIN, WHEELS, film
 
@@ -26,7 +27,7 @@ needs_browser = pytest.mark.skipif(CHROMIUM is None, reason="chromium is not ins
 
 def page_of(found, tmp_path, **given):
     path = tmp_path / "solid.html"
-    found.to_html(path, **given)
+    found.animate(path, **given)
     return path
 
 
@@ -69,13 +70,28 @@ def test_what_the_nodes_say(tmp_path):
         found.to_glb(path, duration=1.0)
         file, shown = gltf.GLTF2().load(path), film(found, duration=1.0)
         [scene] = file.scenes
-        assert scene.extras.get("note", "") == shown.note and scene.extras["clock"] == list(shown.clock)
+        assert scene.extras.get("note", "") == shown.note and scene.extras["progress"] == list(shown.progress)
+        assert ("chart" in scene.extras) == (shown.chart is not None)
         for node, figure in zip(scene.nodes, shown.figures, strict=True):
             extras = file.nodes[node].extras
             assert extras["caption"] == figure.captions[0]
             assert extras.get("captions", [extras["caption"]]) == list(figure.captions)
             assert extras.get("angular_speed") == (figure.speed[0] if figure.is_rigid else None)
-    assert not film(branch).is_rigid
+    assert not film(branch).is_rigid and shown.progress[-1] == "Along branch: 9.00 rad/s"
+    chart = scene.extras["chart"]
+    assert (chart["x_label"], chart["y_label"]) == (shown.chart.x_label, shown.chart.y_label)
+    for name in ("x", "y", "lines"):
+        for one, other in zip(chart[name], getattr(shown.chart, name), strict=True):
+            assert np.allclose(one, other, rtol=1e-4, atol=0)
+
+
+def test_progress_of_each_kind():
+    """Time, speed, or how far along the branches; pages of what only turns count the time themselves."""
+    assert film(ALL["modes"]()).progress == ()
+    assert film(ALL["swing"](), time_scale=1.0).progress[0] == "Time: 0.500 s"
+    assert film(ALL["response"]()).progress[0] == "Speed: 1.00 rad/s"
+    several = film(ALL["branches"]()).progress
+    assert (several[0], several[-1]) == ("Along branches: 0 %", "Along branches: 100 %")
 
 
 def test_the_page_names_no_other_file(tmp_path):
@@ -83,17 +99,16 @@ def test_the_page_names_no_other_file(tmp_path):
     assert "default-src 'none'" in text  # the browser refuses all that is not in the page
     page = re.sub(r"<script[^>]*>.*?</script>", "", text, flags=re.DOTALL)
     assert not re.search(r"https?:|\b(src|href|url)\b\s*[=(]", page)
-    assert set(re.findall(r"https?://[^\"'`\s]*", text)) == {"http://www.w3.org/1999/xhtml"}  # a name of XML, no address
+    names = {"http://www.w3.org/1999/xhtml", "http://www.w3.org/2000/svg"}  # of XML, no addresses
+    assert set(re.findall(r"https?://[^\"'`\s]*", text)) == names
     script = files("revchain").joinpath("motion", "viewer.min.js").read_text(encoding="utf-8")
     assert len(script.encode()) < 600_000 and "three.js authors" in script and "Permission is hereby granted" in script
 
 
 def test_refused(tmp_path):
     found = rc.modes(CHAIN)
-    with pytest.raises(ValueError, match=r"Modes\.to_html: path must end in \.html, got a\.glb"):
-        found.to_html("a.glb")
-    with pytest.raises(ValueError, match=r"Modes\.to_html: no figure may turn more than 5000 times; lower time_scale"):
-        found.to_html(tmp_path / "a.html", time_scale=1e6)
+    with pytest.raises(ValueError, match=r"Modes\.animate: no figure may turn more than 5000 times; lower time_scale"):
+        found.animate(tmp_path / "a.html", time_scale=1e6)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -120,8 +135,15 @@ def test_a_browser_shows_all_of_it(kind, tmp_path):
     captions = re.findall(r'<div class="caption"[^>]*data-words="([^"]*)"', page)
     assert [html.unescape(words) for words in captions] == [figure.caption(31) for figure in shown.figures]
     [words] = re.findall(r'<p id="words">([^<]*)</p>', page)
-    assert words == "; ".join(filter(None, [shown.words, shown.clock[31 if len(shown.clock) > 1 else 0]]))
-    assert ">Play</button>" in page and (' id="place" hidden=""' in page) == shown.is_rigid
+    assert words == shown.words
+    controls = re.findall(r'<button id="(\w+)|<output id="(\w+)|<input id="(\w+)', page.partition("<footer>")[2])
+    names = ["play", "playback", "pace", "progress", "at", "reset"]  # the same, in the same order, on every page
+    assert [one or other or third for one, other, third in controls] == names
+    said = dict(re.findall(r'<output id="(\w+)"[^>]*>([^<]*)</output>', page))
+    seconds = 1.24 * shown.time_scale
+    time = f"Time: {seconds:.{max(0, 2 - int(np.floor(np.log10(shown.seconds * shown.time_scale))))}f} s"
+    assert said == {"playback": "×1", "progress": shown.progress[31] if shown.progress else time}
+    assert page.count("<circle") == (len(shown.figures) if shown.chart else 0)
 
 
 @pytest.mark.slow

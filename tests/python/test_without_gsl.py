@@ -27,7 +27,7 @@ rc.steady_shapes(RIG, angular_speed=5.0)[0].stability().verdict
 rc.steady_shapes(rc.Held(RODS, span=0.5), angular_speed=9.0)[0].offset.tolist()
 rc.branches(CHAIN, max_angular_speed=9.0)[0].conical_height.tolist()
 rc.response(RODS, angular_speed=3.0, support_radius=0.01).offset.tolist()
-rc.swing(CHAIN, [0.1, 0.0, 0.0], None, [0.5]).offset.tolist()
+rc.swing(CHAIN, [0.5], offset=[0.1, 0.0, 0.0]).offset.tolist()
 rc.tune(CHAIN, vary="links[0].mass", angular_speed=2.6).value
 [method["name"] for method in rc.explain(RODS, 2).to_dict()["methods"]]
 rc.Cord(1.0, mass=0.2, density=lambda s: 1 + s).mass
@@ -47,9 +47,9 @@ rc.modes(rc.Held(rc.Cord(1.0, weight=1.0), tension=3.0), 2)
 rc.count_modes(rc.Cord(1.0), angular_speed=9.0)
 rc.branches(rc.Cord(1.0), max_angular_speed=9.0)
 rc.branch(rc.Cord(1.0), 1, max_angular_speed=9.0)
-rc.steady_shape(rc.Cord(1.0), tip_inclination=0.3)
-rc.swing(rc.Cord(1.0), lambda s: 0.1 * (1 - s), None, [0.5])
-rc.elliptic.complete(modulus=0.5)
+rc.steady_shape(rc.Cord(1.0), lowest_inclination=0.3)
+rc.swing(rc.Cord(1.0), [0.5], offset=lambda s: 0.1 * (1 - s))
+rc.elliptic.jacobi(1.0, modulus=0.5)
 rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=0.3)
 rc.SkippingRope(span=1.0, length=1.5)
 rc.TortuousRope(least_radius=0.1, greatest_radius=0.3, angular_speed=5.0, tension=2.0)

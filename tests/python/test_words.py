@@ -30,13 +30,12 @@ def test_standard_terms(repository, term):
 
 
 def test_names_of_earlier_versions_are_gone(repository):
-    """C++ (`::`), the compiled module (`_core.`) and data files have some of these names; upgrade.py replaces them."""
+    """C++ (`::`), the compiled module (`_core.`) and data files have some of these names."""
     old = re.compile(rf"(?<![\w/.])(rc\.|revchain\.)?({GONE})(?!\w|\.csv)")
     folders = {"examples": ("py", "toml"), "src/revchain": ("py", "toml", "json"), "bench": ("py",)}
     paths = pages(repository)
     paths += [p for folder, ends in folders.items() for end in ends for p in sorted((repository / folder).rglob(f"*.{end}"))]
     assert len(paths) > 100
-    paths = [path for path in paths if path.name != "upgrade.py"]
     found = []
     for path in paths:
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from playwright.sync_api import Page, sync_playwright
 
+ARGUMENTS = ["--no-sandbox", "--enable-unsafe-swiftshader", "--use-angle=swiftshader"]  # as in conftest.py
 OUT = Path(__file__).resolve().parents[2] / "out" / "web"
 
 FRAMES = """async (ids) => {
@@ -45,7 +46,7 @@ def main() -> None:
         f"size                          {len(text) / 1000:.0f} KB, {len(gzip.compress(text, 9)) / 1000:.0f} KB with gzip"
     )
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path="/usr/bin/chromium", args=["--no-sandbox"])
+        browser = playwright.chromium.launch(executable_path="/usr/bin/chromium", args=ARGUMENTS)
         for attempt in range(3):
             page = browser.new_page()
             page.goto((OUT / "index.html").as_uri())

@@ -122,6 +122,29 @@ def test_dragging_the_slider_follows_with_every_question(open_page):
     same_shapes(found["shapes"], rc.Chain(mass=[0.1] * 8, length=0.125), found["state"]["speed"], 9.80665)
 
 
+def test_the_picture_turns_and_pauses(open_page):
+    """The stage of the package's pages draws the chain; keys and playback change what is seen."""
+    page = open_page("x=swing_carousel")
+    settled(page)
+    view = page.locator("#view canvas")
+    turning = {view.screenshot() for _ in range(3)}
+    assert len(turning) > 1
+    page.click("#play")
+    page.wait_for_timeout(200)
+    still = view.screenshot()
+    page.wait_for_timeout(200)
+    assert view.screenshot() == still
+    page.focus("#view canvas")
+    page.keyboard.press("ArrowLeft")
+    page.wait_for_timeout(200)
+    assert view.screenshot() != still
+    page.click("#reset")
+    page.wait_for_timeout(200)
+    page.locator("#pace").fill("-1")
+    page.wait_for_function("document.getElementById('scale').textContent.endsWith('times slower than real time')")
+    assert page.text_content("#playback") == "×0.1"
+
+
 def test_keys_and_touch(open_page):
     page = open_page("p=2_1_1_rod&n=6", has_touch=True, viewport={"width": 390, "height": 844})
     before = settled(page)["state"]

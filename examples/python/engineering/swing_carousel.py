@@ -48,7 +48,7 @@ for shape in shapes:
 # %%
 # The shapes turning, as solids. Drag the picture to turn the view.
 
-shapes.show(height=520, solid=True)
+shapes.show(height=520)
 
 # %%
 # Every shape belongs to a branch: the shape as a function of the speed. One branch starts at rest.

@@ -39,7 +39,7 @@ print("ratio      minute            sag, m      kN           kN           rope, 
 for ratio in (1.25, 2.0, 4.0, 8.0):
     speed = ratio * WIND / light.sag
     shape = rc.steady_shapes(cord, angular_speed=speed)[0]
-    along = shape.at(arc)
+    along = shape.along(arc)
     found[f"{ratio:g}: {30 * speed / np.pi:.0f} rpm"] = along
     lowest = int(np.argmax(along.offset))
     off = np.hypot(along.offset - rope.offset, along.height - rope.x)

@@ -54,11 +54,11 @@ upright = {}
 for turns in (5.0, 3.0, 2.0, 1.0, 0.6):
     (cord,) = rc.steady_shapes(held, angular_speed=2 * np.pi * turns)
     (links,) = rc.steady_shapes(linked, angular_speed=2 * np.pi * turns)
-    widest = cord.at(np.interp(0, cord.at(places).inclination, places))  # where it is parallel to the axis
+    widest = cord.along(np.interp(0, cord.along(places).inclination, places))  # where it is parallel to the axis
     numbers = (turns, widest.offset, links.offset.max(), SPAN / 2 - widest.height)
     pulls = (-cord.upper_pull[1], cord.lower_pull[1])  # what the hands feel, outwards
     print("{:14.1f}  {:6.4f}  {:8.4f}  {:26.4f}  {:29.2f}  {:5.2f}".format(*numbers, *pulls))
-    upright[turns] = cord.at(places)
+    upright[turns] = cord.along(places)
 longer = (LENGTH + SPAN) / 2  # of the two parts of a rope that hangs down, the upper hand's
 (folded,) = rc.modes(rc.Cord(longer), 1).frequency
 assert not rc.steady_shapes(held, angular_speed=2 * np.pi * folded)

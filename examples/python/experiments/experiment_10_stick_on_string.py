@@ -106,7 +106,7 @@ for half_waves in (1, 2):
         curve.plot(speeds, degrees, style, color=COLOURS[half_waves - 1], label=name)
 for k, line in enumerate(rc.branches(carried, max_angular_speed=2 * np.pi * 4)):
     label = "branch from rest" if line.birth == "rest" else f"isolated branch {k}"
-    hand.plot(line.angular_speed / (2 * np.pi), np.degrees(line.tip_inclination), color=COLOURS[k], label=label)
+    hand.plot(line.angular_speed / (2 * np.pi), np.degrees(line.lowest_inclination), color=COLOURS[k], label=label)
 for panel, title in [(curve, "hand at rest"), (hand, f"hand on a circle of {HAND} m: the stick")]:
     panel.axhline(0, color="black", linewidth=0.6)
     panel.set(xlabel="speed (turns/s)", ylabel="inclination (°)", title=title)

@@ -57,7 +57,7 @@ curves = axes["all"]
 closer = curves.inset_axes((0.47, 0.44, 0.51, 0.37), xlim=(3.85, 4.6), ylim=(80.3, 85.9), xticks=[4.0, 4.4])
 for panel in (curves, closer):
     for branch in diagram:
-        panel.plot(branch.angular_speed, np.degrees(branch.tip_inclination), color=f"C{branch.half_waves[-1] - 1}")
+        panel.plot(branch.angular_speed, np.degrees(branch.lowest_inclination), color=f"C{branch.half_waves[-1] - 1}")
     panel.axvline(SPEED, color="0.6", linewidth=0.8, linestyle=":")
 curves.indicate_inset_zoom(closer)
 closer.annotate("isolated branch", (3.92, 85.1), color="C2")

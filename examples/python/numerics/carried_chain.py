@@ -39,8 +39,8 @@ for turns in (0.5, 0.9, 1.1, 1.5, 2.2, 2.4):
 
 plucked = HAND * np.interp(depth, [0, LENGTH / 2, LENGTH], [0, 1, 0])
 moments = np.linspace(0, 4, 2000)
-swing = rc.swing(chain, plucked, None, moments)
-few = rc.swing(chain, plucked, None, moments, count=3)
+swing = rc.swing(chain, moments, offset=plucked)
+few = rc.swing(chain, moments, offset=plucked, count=3)
 share = swing.energy / swing.energy.sum()
 print("plucked in the middle, share of the energy of modes 1 to 5:", " ".join(f"{100 * x:.1f} %" for x in share[:5]))
 print(
@@ -48,7 +48,7 @@ print(
     f"all, with rounding, {(swing.truncation_error[0] + swing.error_bound.max()):.1g} m"
 )
 
-rc.swing(chain, plucked, None, np.linspace(0.0, 2.0, 401)).show()
+rc.swing(chain, np.linspace(0.0, 2.0, 401), offset=plucked).show()
 
 # %%
 # The whole sweep of speeds, the shapes, and the free end after the release.

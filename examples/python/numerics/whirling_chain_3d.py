@@ -9,7 +9,7 @@ The modes of a hanging chain, each turning about its axis as a solid: drag the p
 import revchain as rc
 
 modes = rc.modes(rc.Chain.uniform_rods(12), 6)
-modes.show(solid=True)
+modes.show()
 
 # %%
 # A chain of twelve rods whirls in as many modes. The first six turn here, each at its own speed,
@@ -21,10 +21,10 @@ modes.show(solid=True)
 print(modes)
 
 # %%
-# In a notebook, the view is in the output of the cell. ``modes.to_html("chain.html")`` writes the
-# same solid as a page of its own, ``modes.to_glb("chain.glb")`` as a glTF file for presentations.
+# In a notebook, the view is in the output of the cell. ``modes.animate("chain.html")`` writes the
+# same view as a page of its own, ``modes.to_glb("chain.glb")`` as a glTF file for presentations.
 #
-# To try next: ``rc.steady_shapes(modes.system, angular_speed="120 rpm").show(solid=True)``, which
+# To try next: ``rc.steady_shapes(modes.system, angular_speed="120 rpm").show()``, which
 # is true to scale.
 #
 # Checked: ``tests/python/test_viewer.py`` and ``tests/python/test_animate.py``.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The command that writes the answer of a scene as a film, a page or a solid."""
+"""The command that writes the answer of a scene as a film, a page or a 3D model."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def animate(
             "--out",
             "-o",
             metavar="FILE",
-            help="Film (.gif, .mp4), page (.html), solid (.glb), grid (.vtu, .vtk, .xdmf).",
+            help="Film (.gif, .mp4), page (.html) or 3D model (.glb).",
         ),
     ],
     question: Annotated[
@@ -56,7 +56,7 @@ def animate(
     gravity: Gravity = None,
     quiet: Quiet = False,
 ) -> None:
-    """Show the motion: write a film, a page that plays it, or a solid for three-dimensional viewers."""
+    """Show the motion: write a film, a page that plays it, or a 3D model (glTF)."""
     ending = out.suffix.lower()
     if ending not in METHODS:
         raise Stop(f"--out: {out} must end in {', '.join(METHODS)}", ExitCode.WRONG_USAGE)
@@ -86,7 +86,7 @@ def animate(
             raise Stop(f"{scene}: {asked}: {str(error).partition(': ')[2]}", ExitCode.WRONG_USAGE) from None
     if not quiet:
         print(f"wrote {out}")
-    Report(read, scene.stem, asked, found, "deg").check(scene)
+    Report(read, scene.stem, found, "deg").check(scene)
 
 
 def _numbers(text: str) -> list[int]:

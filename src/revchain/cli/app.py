@@ -9,33 +9,44 @@ import os
 import sys
 from importlib.resources import files
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from ..results.files import written_aside
-from ..scenes import parse
 from ..scenes.error import SceneError
 from ..scenes.scene import json_schema, load_scene
-from ..scenes.upgrade import upgraded_text
 from ..studies.study import study_schema
 from . import animate, ask, sweep  # noqa: F401  their commands come first
 from .exit_codes import ExitCode
-from .frame import STDOUT, Stop, app, epilog, guarded, run_app
+from .frame import STDOUT, Stop, app, epilog, guarded
+
+
+UNREADABLE: Any = typer.BadParameter.__mro__[1]  # click's UsageError, which not every version of typer has as its own
 
 
 def run(arguments: list[str] | None = None) -> int:
-    """Run the command line and return the exit code."""
+    """Run the command line and return the exit code; a wrong command line gives one sentence on stderr."""
     if sys.stdout is None:  # closed by the caller
         sys.stdout = open(os.devnull, "w")
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")  # a terminal without line characters shows question marks
     try:
-        return run_app(arguments)
+        code = app(arguments, prog_name="revchain", standalone_mode=False)
+        return code if isinstance(code, int) else ExitCode.OK
+    except UNREADABLE as error:
+        sentence, context = error.format_message(), error.ctx
+        if "\n" in sentence:  # the help, for want of arguments; newer versions of typer have printed it
+            print(sentence, file=sys.stderr)
+        elif sentence:
+            command = "revchain" if context is None else context.command_path
+            sentence = sentence[0].lower() + sentence[1:].rstrip(".")
+            print(f"revchain: {sentence}; see {command} --help", file=sys.stderr)
+        return ExitCode.WRONG_USAGE
     except SystemExit as end:
         return end.code if isinstance(end.code, int) else int(end.code is not None)
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, typer.Abort):
         return ExitCode.INTERRUPTED
 
 
@@ -43,14 +54,11 @@ def run(arguments: list[str] | None = None) -> int:
 @guarded
 def validate(
     scenes: Annotated[list[Path], typer.Argument(metavar="SCENE...", help="Scene files.")],
-    upgrade: Annotated[bool, typer.Option("--upgrade", help="Rewrite files of version 1, keeping comments.")] = False,
 ) -> None:
     """Check scene files without answering them."""
     bad = 0
     for path in scenes:
         try:
-            if upgrade:
-                _upgrade(path)
             read = load_scene(path)
             system, asks = read.system(), ", ".join(read.asks) or "nothing, so its modes"
             print(f"{path}: valid: {system.describe()}; asks {asks}")
@@ -61,21 +69,6 @@ def validate(
             print(f"revchain: {error}".replace("\n", "\nrevchain: "), file=sys.stderr)
     if bad:
         raise typer.Exit(ExitCode.SCENE_INVALID)
-
-
-def _upgrade(path: Path) -> None:
-    """Rewrite a scene file of version 1."""
-    try:
-        old = parse.text_of(path)
-        new = upgraded_text(old, parse.is_json(str(path)))
-    except SceneError:
-        raise
-    except ValueError as error:
-        raise SceneError(str(path), "", str(error)) from None
-    if new != old:
-        with written_aside(path) as [aside]:
-            aside.write_text(new, encoding="utf-8")
-        print(f"wrote {path}")
 
 
 @app.command(epilog=epilog("new"))

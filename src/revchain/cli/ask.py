@@ -14,19 +14,16 @@ from msgspec import Meta, structs
 from rich.console import Console
 
 from ..results.files import written_aside
-from ..results.motions import Swing
 from ..scenes.ask import QUESTIONS, AskExplain, Pair, Spread
+from ..scenes.chain import Numbers
 from ..scenes.error import SceneError
 from ..scenes.parse import is_json, text_of
 from ..scenes.places import places_in
-from ..scenes.scene import EXCLUSIVE, Scene, System, load_scene
+from ..scenes.scene import EXCLUSIVE, Scene, System, load_scene, read
 from ..scenes.tables import Table, fields_of
-from ..systems.cord import Cord
 from ..systems.extras import require
-from ..systems.held import Held
-from ..systems.rig import Rig
 from .exit_codes import ExitCode
-from .frame import PICTURES, STDOUT, Stop, app, epilog, guarded, outputs_of, save_picture
+from .frame import STDOUT, Stop, app, epilog, guarded, outputs_of
 from .progress import watched
 from .report import Report
 
@@ -38,7 +35,6 @@ Gravity = Annotated[
 ]
 Units = Annotated[str, typer.Option(metavar="deg|rad", help="Unit of angles in tables; files have radians.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print no table and no progress bar.")]
-MANY_TIMES = 12
 COMMON: dict[str, tuple[Any, Any]] = {
     "gravity": (Gravity, None),
     "units": (Units, "deg"),
@@ -61,7 +57,7 @@ def run(
     quiet: Quiet = False,
 ) -> None:
     """Answer all questions of a scene; find its modes if it has none."""
-    read, folder = read_scene(scene, gravity, units), Path("out", scene.stem) if out is None else out
+    checked, folder = read_scene(scene, gravity, units), Path("out", scene.stem) if out is None else out
     kinds = [".txt", ".json", ".csv", ".png"]
     try:
         require("matplotlib", "plot", "the picture")
@@ -72,10 +68,10 @@ def run(
         raise Stop(f"{scene}: the scene itself would be overwritten", ExitCode.WRONG_USAGE)
     folder.mkdir(parents=True, exist_ok=True)
     failed: list[Stop] = []
-    for nth, question in enumerate(read.asks or ("modes",)):
+    for nth, question in enumerate(checked.asks or ("modes",)):
         outputs = [(folder / f"{question}{kind}", kind) for kind in kinds]
         try:
-            report = _answer(scene, read, question, {}, outputs, units, quiet)
+            report = _answer(scene, checked, question, {}, outputs, units, quiet)
             if not quiet:
                 _show(report, outputs, heading=nth == 0)
             report.check(scene)
@@ -91,14 +87,14 @@ def _command(question: str, table: type[Table], summary: str) -> None:
     def command(scene: Path, **given: Any) -> None:
         common = {name: given.pop(name) for name in COMMON if name in given}
         changed = {name: _meant(field, given[name]) for name, field in fields.items() if given[name] is not None}
-        read = read_scene(scene, common["gravity"], common["units"])
+        checked = read_scene(scene, common["gravity"], common["units"])
         outputs = outputs_of(scene, common.get("plot"), common["json"], common["csv"])
-        report = _answer(scene, read, question, changed, outputs, common["units"], common["quiet"])
+        report = _answer(scene, checked, question, changed, outputs, common["units"], common["quiet"])
         if STDOUT in (common["json"], common["csv"]):
             sys.stdout.write(report.text(".json" if common["json"] == STDOUT else ".csv"))
         elif not common["quiet"]:
             _show(report, outputs)
-            if others := [name for name in read.asks if name != question]:
+            if others := [name for name in checked.asks if name != question]:
                 print(f"the scene also asks: {', '.join(others)}; for all of it: revchain run {scene}")
         report.check(scene)
 
@@ -176,14 +172,13 @@ def read_scene(path: Path, gravity: str | None, units: str) -> Scene:
     """The scene, with another gravity if one is given."""
     if units not in ("deg", "rad"):
         raise Stop(f"--units: must be deg or rad, got {units}", ExitCode.WRONG_USAGE)
-    read = load_scene(path)
-    if gravity is not None:
-        read = structs.replace(read, gravity=_number(gravity))
-        try:
-            read.gravity_value()
-        except SceneError as error:
-            raise Stop(f"--gravity: {error.reason}", ExitCode.WRONG_USAGE) from None
-    return read
+    if gravity is None:
+        return load_scene(path)
+    numbers = Numbers("scene")
+    numbers.value("gravity", _number(gravity), "gravity", "positive")
+    if numbers.problems:
+        raise Stop(f"--gravity: {numbers.problems[0].reason}", ExitCode.WRONG_USAGE)
+    return read(path, {"gravity": _number(gravity)})
 
 
 def _answer(
@@ -197,17 +192,10 @@ def _answer(
 ) -> Report:
     """Answer one question and write the files. The outputs are opened first."""
     refuse_without_answer(path, scene, question)
-    with written_aside(*(place for place, _ in outputs)) as asides:
+    with written_aside(*[place for place, _ in outputs]) as asides:
         found = answer_of(path, scene, question, changed, quiet)
-        report = Report(scene, path.stem, question, found, units)
-        for aside, (place, kind) in zip(asides, outputs, strict=True):
-            try:
-                if kind in PICTURES:
-                    save_picture(_drawn(found), report.title, aside)
-                else:
-                    aside.write_text(report.text(kind), encoding="utf-8")
-            except OSError as error:  # says the place that was asked for, or none
-                raise OSError(error.errno, error.strerror or str(error), str(place)) from None
+        report = Report(scene, path.stem, found, units)
+        report.write(outputs, asides)
     return report
 
 
@@ -228,18 +216,10 @@ def answer_of(path: Path, scene: Scene, question: str, changed: dict[str, Any], 
         raise Stop("\nrevchain: ".join(said), ExitCode.WRONG_USAGE) from None
 
 
-def _drawn(found: Any) -> Any:
-    """The picture of an answer; for a swing at many times, whose shapes hide one another, offsets against time."""
-    if isinstance(found, Swing) and found.time.size > MANY_TIMES:
-        size = found.system.size
-        return found.plot(kind="time", pins=sorted({0, size // 3, 2 * size // 3}))
-    return found.plot()
-
-
 def _show(report: Report, outputs: list[tuple[Path, str]], heading: bool = True) -> None:
     """Print the tables and the names of the written files."""
     report.print(Console(), heading)
-    print(f"wrote {', '.join(str(place) for place, _ in outputs)}\n" if outputs else "", end="")
+    print(f"wrote {', '.join([str(place) for place, _ in outputs])}\n" if outputs else "", end="")
 
 
 def _said(key: str, reason: str, question: str, changed: dict[str, Any], path: Path) -> str:
@@ -277,8 +257,8 @@ _NAMES = {
 
 def without_answer(question: str, system: System, path: Path) -> str:
     """The reason why a question has no answer for a system, and the question to ask instead; empty if it has one."""
-    kind = {Rig: "rig", Cord: "cord", Held: "held"}.get(type(system), "")
-    if isinstance(system, Held) and system.span is not None:
+    kind = system._kind.partition(" ")[0]
+    if system._is_held and getattr(system, "span", None) is not None:
         kind = "bent"
     instead = _NO_ANSWER[question].get(kind, "").format(path=path)
     return f"{question}: no answer for {_NAMES[kind]}; {instead}" if instead else ""

@@ -22,8 +22,6 @@ Arguments = ParamSpec("Arguments")
 PICTURES = (".png", ".svg", ".pdf")
 STDOUT = "-"
 
-UNREADABLE: Any = typer.BadParameter.__mro__[1]  # click's UsageError, which not every version of typer has as its own
-
 EXIT_CODES = "Exit codes: " + "; ".join(f"{code.value} {meaning}" for code, meaning in MEANING.items()) + "."
 
 _ON_REQUEST = "only those given by --plot, --json and --csv"
@@ -51,7 +49,7 @@ USE: dict[str, tuple[str, str]] = {
         "the results (--out, or STUDY.csv in the current folder) and the picture given by --plot; RESULTS.partial "
         "while it computes, or if it is interrupted",
     ),
-    "validate": ("revchain validate examples/scenes/watch_chain.toml", "none; with --upgrade the scenes themselves"),
+    "validate": ("revchain validate examples/scenes/watch_chain.toml", "none"),
     "new": ("revchain new crane.toml", "FILE, or scene.toml (study.toml with --study); existing files only with --force"),
     "schema": ("revchain schema", "none"),
 }
@@ -125,24 +123,6 @@ def fail(message: str, code: ExitCode) -> NoReturn:
     """Print the message on stderr as plain text, and exit."""
     print(f"revchain: {message}", file=sys.stderr)
     raise typer.Exit(code)
-
-
-def run_app(arguments: list[str] | None) -> int:
-    """Run the application and return the exit code; a wrong command line gives one sentence on stderr."""
-    try:
-        code = app(arguments, prog_name="revchain", standalone_mode=False)
-    except UNREADABLE as error:
-        sentence, context = error.format_message(), error.ctx
-        if "\n" in sentence:  # the help, for want of arguments; newer versions of typer have printed it
-            print(sentence, file=sys.stderr)
-        elif sentence:
-            command = "revchain" if context is None else context.command_path
-            sentence = sentence[0].lower() + sentence[1:].rstrip(".")
-            print(f"revchain: {sentence}; see {command} --help", file=sys.stderr)
-        return ExitCode.WRONG_USAGE
-    except typer.Abort:
-        return ExitCode.INTERRUPTED
-    return code if isinstance(code, int) else ExitCode.OK
 
 
 def show_version(wanted: bool) -> None:

@@ -4,13 +4,14 @@
 from __future__ import annotations
 
 import io
-import json
-from dataclasses import dataclass, replace
+import re
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from textwrap import fill
 from typing import Any
 
+import msgspec
 import numpy as np
 from rich import box
 from rich.console import Console
@@ -19,46 +20,53 @@ from rich.text import Text
 
 from ..results.explanation import Explanation
 from ..results.modes import Modes
-from ..results.motions import Response
-from ..results.sheet import Column, Sheet, as_csv, as_dict, cells, finite, plain
+from ..results.motions import Response, Swing
+from ..results.sheet import Column, Sheet, as_csv, as_dict, cells
 from ..scenes.chain import in_file
 from ..scenes.scene import Scene
 from .exit_codes import ExitCode
-from .frame import Stop
+from .frame import PICTURES, Stop, save_picture
 
 NARROWEST = 80  # smallest width of a terminal in columns; numbers are never cut
 HEADING = 10  # width of a line of a heading in columns
+MANY_TIMES = 12
 
 
-@dataclass(frozen=True)
 class Report:
     """The answer to one question of a scene: as text, JSON, CSV and picture."""
 
-    scene: Scene
-    stem: str
-    question: str
-    found: Any
-    units: str
-
-    @property
-    def title(self) -> str:
-        return self.scene.title or self.stem
+    def __init__(self, scene: Scene, stem: str, found: Any, units: str) -> None:
+        self.scene = scene
+        self.title = scene.title or stem
+        self.system = scene.system().describe()
+        self.found = found
+        self.units = units
+        self.sheet: Sheet = found._sheet(brief=True)
 
     @cached_property
-    def system(self) -> str:
-        """The system in words."""
-        return self.scene.system().describe()
+    def tables(self) -> list[tuple[Text | None, Table | None]]:
+        """The printed tables: heading and grid of each."""
+        more = [getattr(self.found, name, None) for name in ("certificate", "other")]
+        sheets = [self.sheet, *[each._sheet() for each in more if each is not None and (each is more[0] or len(each))]]
+        if isinstance(self.found, Response) and self.found.angular_speed.size == 1:
+            sheets.append(_pins(self.found))
+        styles = ["" if each.good else "bold yellow" for each in sheets]
+        texts = [Text(each.heading, style=style) for each, style in zip(sheets, styles, strict=True)]
+        headings = [text if text.plain else None for text in texts]
+        grids = [_grid(each, self.units) for each in sheets]
+        return list(zip(headings, grids, strict=True))
 
     def check(self, path: Path) -> None:
         """Raise Stop with exit code 1 unless everything was found and proved."""
         missing = getattr(self.found, "missing", ())
-        if self._sheet(brief=True).good and not missing:
+        if self.sheet.good and not missing:
             return
         what = "not proved to be all there is"
         if isinstance(self.found, Explanation):
             best = self.found.chosen
-            kept = f"no method keeps the tolerance; the best bound is {best.error_bound:.1e}" if best else ""
-            what = kept or "no method applies"
+            what = "no method applies"
+            if best:
+                what = f"no method keeps the tolerance; the best bound is {best.error_bound:.1e}"
         if missing:
             what = f"no shape was found with {', '.join(map(str, missing))} half wave{'s' * (list(missing) != [1])}"
         if isinstance(self.found, Modes):
@@ -67,53 +75,59 @@ class Report:
                 what += f": asked {self.found.rtol:g}, reached {self.found.error_bound.max():.1e}"
         raise Stop(f"{path}: {what}", ExitCode.TOLERANCE_NOT_MET)
 
+    def write(self, outputs: list[tuple[Path, str]], asides: list[Path]) -> None:
+        """Write the outputs, each a place and its kind, to the temporary files beside them."""
+        for aside, (place, kind) in zip(asides, outputs, strict=True):
+            try:
+                if kind in PICTURES:
+                    axes = self.found.plot(**_drawn(self.found))
+                    save_picture(axes, self.title, aside)
+                else:
+                    aside.write_text(self.text(kind), encoding="utf-8")
+            except OSError as error:  # says the place that was asked for, or none
+                raise OSError(error.errno, error.strerror or str(error), str(place)) from None
+
     def text(self, kind: str) -> str:
         """The report as ``.txt``, or all numbers as ``.json`` or ``.csv``."""
         if kind == ".txt":
             file = io.StringIO()
             self.print(Console(file=file, width=NARROWEST))
-            return "\n".join(line.rstrip() for line in file.getvalue().splitlines()) + "\n"
-        sheet = self._sheet()
-        columns = [column for column in sheet.columns if (column.name, *column.axes) != ("shape", "pin")]
-        sheet = replace(sheet, columns=columns)
+            return re.sub(r" +$", "", file.getvalue(), flags=re.MULTILINE)
         if kind == ".csv":
-            return as_csv(sheet)
-        return json_of({"title": self.title, "system": self.system, **as_dict(sheet)})
+            return as_csv(self._all)
+        data = {"title": self.title, "system": self.system, **as_dict(self._all)}
+        # msgspec writes null for a number that is not finite
+        return msgspec.json.format(msgspec.json.encode(data), indent=2).decode() + "\n"
+
+    @cached_property
+    def _all(self) -> Sheet:
+        """All columns for files, apart from the shapes of modes."""
+        sheet: Sheet = self.found._sheet()
+        columns = [column for column in sheet.columns if (column.name, *column.axes) != ("shape", "pin")]
+        return replace(sheet, columns=columns)
 
     def print(self, console: Console, heading: bool = True) -> None:
         """Print the system in words, the table with its heading, and further tables."""
-        sheet = self._sheet(brief=True)
-        more = [getattr(self.found, name, None) for name in ("certificate", "other")]
-        others = [each._sheet() for each in more if each is not None and (each is more[0] or len(each))]
-        if isinstance(self.found, Response) and self.found.angular_speed.size == 1:
-            others.append(_pins(self.found))
-        grids = {id(each): _grid(self._in_units(each)) for each in (sheet, *others) if len(each)}
-        needed = [Console(width=1000).measure(grid).maximum for grid in grids.values()]
-        console.width = max(console.width, NARROWEST, *needed, 0)
+        needed = [Console(width=1000).measure(grid).maximum for _, grid in self.tables if grid]
+        console.width = max(console.width, NARROWEST, *needed)
         if heading:
             console.print(Text(self.title, style="bold"), Text(self.system), sep="\n")
-        for each in (sheet, *others):
-            if each.heading:
-                console.print(Text(each.heading, style="" if each.good else "bold yellow"))
-            if id(each) in grids:
-                console.print(grids[id(each)])
-        for note in sheet.notes:
+        for words, grid in self.tables:
+            for part in (words, grid):
+                if part is not None:
+                    console.print(part)
+        for note in self.sheet.notes:
             if self.scene.order == "support first":
                 note = in_file(note, self.scene._bodies())
             console.print(Text(note, style="dim"))
 
-    def _sheet(self, brief: bool = False) -> Sheet:
-        sheet: Sheet = self.found._sheet(brief)
-        return sheet
 
-    def _in_units(self, sheet: Sheet) -> Sheet:
-        """The sheet with its angles in degrees or radians."""
-        if self.units == "deg":
-            return sheet
-        def in_rad(column: Column) -> Column:
-            return replace(column, heading=column.heading.replace("(°)", "(rad)"), shown=None)
-
-        return replace(sheet, columns=[in_rad(each) if "(°)" in each.heading else each for each in sheet.columns])
+def _drawn(found: Any) -> dict[str, Any]:
+    """How an answer is drawn: a swing at many times, whose shapes hide one another, as offsets against time."""
+    if not isinstance(found, Swing) or found.time.size <= MANY_TIMES:
+        return {}
+    size = found.system.size
+    return {"kind": "time", "pins": sorted({0, size // 3, 2 * size // 3})}
 
 
 def _pins(found: Response) -> Sheet:
@@ -124,13 +138,20 @@ def _pins(found: Response) -> Sheet:
     return Sheet("pin", "a resonance: it goes out without bound" if found.resonant else "", columns)
 
 
-def _grid(sheet: Sheet) -> Table:
+def _grid(sheet: Sheet, units: str) -> Table | None:
+    """The table of a sheet, with its angles in degrees or radians; None if it has no rows."""
+    if units == "rad":
+        turned = [column for column in sheet.columns if "(°)" in column.heading]
+        in_rad = {id(each): each._replace(heading=each.heading.replace("(°)", "(rad)"), shown=None) for each in turned}
+        sheet = replace(sheet, columns=[in_rad.get(id(column), column) for column in sheet.columns])
     headings, rows, notes = cells(sheet)
+    if not rows:
+        return None
     hidden = len(sheet) - len(rows)
     grid = Table(box=box.SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
-    for heading, column in zip(headings, (each for each in sheet.columns if each.heading), strict=True):
+    for heading, column in zip(headings, [each for each in sheet.columns if each.heading], strict=True):
         lines = heading.replace(" (", "\n(").split("\n")
-        heading = "\n".join(fill(line, HEADING, break_long_words=False) for line in lines)
+        heading = "\n".join([fill(line, HEADING, break_long_words=False) for line in lines])
         grid.add_column(heading, justify="left" if column.left else "right", no_wrap=True)  # none is ever cut
     for row in rows:
         grid.add_row(*row)
@@ -138,8 +159,3 @@ def _grid(sheet: Sheet) -> Table:
         grid.caption = f"{notes[0]}; --json and --csv write all of them"
         grid.caption_justify = "left"
     return grid
-
-
-def json_of(data: dict[str, Any]) -> str:
-    """The data as JSON, with null in place of infinity and NaN, which JSON does not have."""
-    return json.dumps(finite(plain(data)), indent=2, ensure_ascii=False, allow_nan=False) + "\n"

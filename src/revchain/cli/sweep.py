@@ -6,26 +6,28 @@ from __future__ import annotations
 import sys
 import time
 import warnings
-from concurrent.futures import Executor
+from concurrent.futures import ProcessPoolExecutor
 from contextlib import ExitStack
+from multiprocessing import get_context
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
+import numpy as np
 import typer
 
-from ..plots.sweep import why_not_drawn
+from ..plots.sweep import plot_sweep, why_not_drawn
 from ..results.files import written_aside
-from ..studies.result import SweepResult
-from ..studies.store import checked_ending
 from ..studies.study import Study, load_study
-from ..studies.sweep import dask_client
+from ..studies.sweep import checked_ending, columns
 from ..studies.sweep import sweep as compute
 from .exit_codes import ExitCode
 from .frame import Stop, app, checked_picture, epilog, guarded, save_picture
 from .progress import counted
 
+if TYPE_CHECKING:
+    from xarray import Dataset
+
 SENTENCES = 5  # number of refused points that are shown
-MAX_SHOWN = 10**7  # largest number of results with a summary
 
 
 @app.command(epilog=epilog("sweep"))
@@ -40,13 +42,8 @@ def sweep(
         typer.Option(metavar="FILE", help="File for the results: .csv, .parquet or .nc; STUDY.csv here if left out."),
     ] = None,
     plot: Annotated[Path | None, typer.Option(metavar="FILE", help="Picture: .png, .svg or .pdf.")] = None,
-    dask: Annotated[
-        str | None,
-        typer.Option(metavar="tcp://ADDRESS|local", help="Compute on a Dask cluster; local starts one on this machine."),
-    ] = None,
-    workers: Annotated[
-        int | None, typer.Option(metavar="K", min=1, help="Number of threads, or of processes of the local cluster.")
-    ] = None,
+    workers: Annotated[int | None, typer.Option(metavar="K", min=1, help="Number of threads or processes.")] = None,
+    processes: Annotated[bool, typer.Option("--processes", help="Use processes instead of threads.")] = False,
     chunk: Annotated[
         int | None, typer.Option(metavar="K", min=1, help="Number of points computed and stored together.")
     ] = None,
@@ -56,53 +53,47 @@ def sweep(
     """Compute many variations of a scene; an interrupted run continues where it stopped."""
     given = load_study(study)
     if check:
-        for line in _plan(given, str(study)):
-            print(line)
+        print("\n".join(_plan(given, str(study))))
         return
     if plot is not None:
         checked_picture(plot)
         if reason := why_not_drawn(given._plan(str(study))):
             raise Stop(f"--plot: {reason}", ExitCode.WRONG_USAGE)
-    if workers is not None and dask not in (None, "local"):
-        raise Stop("--workers is for this machine: a cluster has its own", ExitCode.WRONG_USAGE)
     out = Path(f"{study.stem}.csv") if out is None else out
     if out.resolve() == study.resolve():
         raise Stop(f"{study}: the study itself would be overwritten", ExitCode.WRONG_USAGE)
+    try:
+        checked_ending(out)
+    except ValueError as error:
+        raise Stop(str(error), ExitCode.WRONG_USAGE) from None
     began = time.perf_counter()
     with ExitStack() as stack:
-        picture = None if plot is None else _picture(plot, out, stack)
-        executor = None if dask is None else _executor(dask, workers, stack)
+        if plot is not None:  # opened before the computation, so that a wrong path is an error at once
+            out.parent.mkdir(parents=True, exist_ok=True)  # the picture may go there, too
+            [picture] = stack.enter_context(written_aside(plot))
+        pool = stack.enter_context(ProcessPoolExecutor(workers, get_context("spawn"))) if processes else None
         told = counted(stack, "points", quiet)
-        threads = None if executor is not None else workers
         try:
-            with warnings.catch_warnings(record=True) as warned:
+            with warnings.catch_warnings():
+                warnings.showwarning = lambda message, *_: print(f"revchain: {message}", file=sys.stderr)
                 warnings.simplefilter("always", UserWarning)
-                found = compute(given, out=out, executor=executor, threads=threads, chunk=chunk, progress=told)
+                found = compute(given, out=out, executor=pool, workers=workers, chunk=chunk, progress=told)
         except KeyboardInterrupt:
             raise Stop(f"interrupted; repeat the command to continue from {out}.partial", ExitCode.INTERRUPTED) from None
-        except OSError:
-            raise
-        except ValueError as error:
-            raise Stop(str(error), ExitCode.WRONG_USAGE) from None
-        if picture is not None:
-            save_picture(found.plot(), given.title or study.stem, picture)
-    for each in warned:
-        print(f"revchain: {each.message}", file=sys.stderr)
+        if plot is not None:
+            save_picture(plot_sweep(found), given.title or study.stem, picture)
     if not quiet:
-        there = f", {found.resumed:,} of them from before" if found.resumed else ""
-        if len(found) * len(found.found) <= MAX_SHOWN:
-            print(found)
-        print(f"wrote {out}: {len(found):,} points in {time.perf_counter() - began:.3g} s{there}")
+        print("\n".join(_summary(found)))
+        print(f"wrote {out}: {found['status'].size:,} points in {time.perf_counter() - began:.3g} s")
         if plot is not None:
             print(f"wrote {plot}")
-    if found.count("success") < len(found):
-        _complain(found)
+    _complain(found, given)
 
 
 def _plan(study: Study, source: str) -> list[str]:
     """Lines that describe what would be computed."""
     plan = study._plan(source)
-    lines = [f"{source}: valid: {plan.points:,} points, {'in batches' if plan.batched else 'one by one'}"]
+    lines = [f"{source}: valid: {plan.points:,} points, {'one by one' if plan.links is None else 'in batches'}"]
     for axis in plan.axes:
         if axis.values is None:
             what = f"{axis.law}, " + " and ".join(f"{number:g}" for number in axis.law_numbers)
@@ -110,41 +101,30 @@ def _plan(study: Study, source: str) -> list[str]:
             ends = [value if isinstance(value, str) else f"{value:g}" for value in axis.values[[0, -1]].tolist()]
             what = f"{axis.values.size:,} values, {ends[0]} to {ends[1]}"
         lines.append(f"  {axis.name}: {what}")
-    columns = [
-        f"{block.columns[0]} … {block.columns[-1]}" if len(block.columns) > 1 else block.columns[0]
-        for block in plan.blocks
-    ]
-    return [*lines, *(f"  finds {column}" for column in columns)]
+    for block in plan.blocks:
+        lines.append(f"  finds {' … '.join(dict.fromkeys([block.columns[0], block.columns[-1]]))}")
+    return lines
 
 
-def _executor(address: str, workers: int | None, stack: ExitStack) -> Executor:
-    try:
-        client = stack.enter_context(dask_client(address, workers))
-    except ImportError:
-        raise
-    except (OSError, ValueError, TimeoutError) as error:
-        raise Stop(f"--dask: {address} does not answer: {error}", ExitCode.WRONG_USAGE) from None
-    if client.cluster is not None:
-        stack.callback(client.cluster.close)
-    executor: Executor = client.get_executor()
-    return executor
+def _summary(found: Dataset) -> list[str]:
+    """Lines with the range of each column of numbers."""
+    lines: list[tuple[str, ...]] = [("column", "least", "median", "largest")]
+    for name, values in list(columns(found).items())[1:-1]:
+        there: Any = values[np.isfinite(values)] if values.dtype.kind in "fi" else ()
+        if len(there):
+            lines.append((name, *(f"{number:.5g}" for number in (there.min(), np.median(there), there.max()))))
+    wide = [max(map(len, column)) for column in zip(*lines, strict=True)]
+    rows = ["  ".join([line[0].ljust(wide[0]), *map(str.rjust, line[1:], wide[1:])]) for line in lines]
+    points = found["status"].size
+    return [f"Study of {points:,} point{'s' * (points != 1)}", *rows]
 
 
-def _picture(plot: Path, out: Path, stack: ExitStack) -> Path:
-    """The temporary file of the picture; it is opened before the computation, so that a wrong path is an error at once."""
-    try:
-        checked_ending(out)
-    except ValueError as error:
-        raise Stop(str(error), ExitCode.WRONG_USAGE) from None
-    out.parent.mkdir(parents=True, exist_ok=True)  # the picture may go there, too
-    [aside] = stack.enter_context(written_aside(plot))
-    return aside
-
-
-def _complain(found: SweepResult) -> None:
+def _complain(found: Dataset, study: Study) -> None:
     """Raise Stop with the points that have no numbers or no proof."""
-    refused, unmet = found.count("refused"), found.count("tolerance_not_met")
-    lines = [f"point {point:,}: {reason}" for point, reason in sorted(found.refused.items())[:SENTENCES]]
-    parts = [f"{refused:,} points are refused"] if refused else []
+    status = found["status"].to_numpy().ravel()
+    unmet, refused = np.count_nonzero(status == 2), np.flatnonzero(status == 3)
+    parts = [f"{refused.size:,} points are refused"] if refused.size else []
     parts += [f"at {unmet:,} points something is not proved"] if unmet else []
-    raise Stop("; ".join(parts) + "".join(f"\n  {line}" for line in lines), ExitCode.TOLERANCE_NOT_MET)
+    lines = [f"\n  point {point:,}: {study._refusal(point)}" for point in refused[:SENTENCES].tolist()]
+    if parts:
+        raise Stop("; ".join(parts) + "".join(lines), ExitCode.TOLERANCE_NOT_MET)

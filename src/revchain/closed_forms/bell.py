@@ -14,6 +14,7 @@ from ..results.sheet import Column, Sheet, speed_columns
 from ..systems.chain import Chain, compiled
 from ..systems.extras import require
 from ..systems.numbers import STANDARD_GRAVITY, Floats, one_positive, real, shown
+from .table import described
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -22,10 +23,10 @@ if TYPE_CHECKING:
 class Strike(NamedTuple):
     """The first blow of a clapper in one swing of its bell; see `BellAndClapper.first_strike`.
 
-    `strikes`: whether the clapper strikes. `side`: ``"leading"`` if the clapper has flown ahead of the rising bell (the
-    bell rings right), ``"trailing"`` if it has fallen behind. `bell_angle`: angle of the bell past its lowest place, rad.
-    `relative_speed`: speed of the clapper in the bell, rad/s, positive towards the leading side. `time`: time after the
-    start, s. The three numbers are NaN if the clapper does not strike.
+    `strikes`: whether the clapper strikes. `side`: ``"leading"`` if the clapper has flown ahead of the rising bell
+    (the bell rings right), ``"trailing"`` if it has fallen behind. `bell_angle`: angle of the bell past its lowest
+    place, rad. `relative_speed`: speed of the clapper in the bell, rad/s, positive towards the leading side. `time`:
+    time after the start, s. The three numbers are NaN if the clapper does not strike.
 
     Examples
     --------
@@ -58,8 +59,8 @@ class BellAndClapper(Result):
     """
 
     __slots__ = ()
-    system: Field[Chain] = Field("Two links: the clapper, and above it the bell.", part=True)
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
+    system: Field[Chain] = Field("Two links: the clapper, and above it the bell.")
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.")
     angular_speed: Field[Floats] = Field(
         "Speed of each mode, rad/s, shape (2,).",
         lambda b: _core.conical_pendulum_angular_speed(np.asarray(b.conical_height), np.asarray(b.gravity)),
@@ -67,52 +68,37 @@ class BellAndClapper(Result):
     conical_height: Field[Floats] = Field(
         "Conical height of the slower mode, in which both lean the same way, and of the faster mode, in which they lean "
         "opposite ways, m, shape (2,).",
-        part=True,
     )
     inclination_ratio: Field[Floats] = Field(
         "Inclination of the clapper divided by that of the bell in each mode, shape (2,). If the first is 1, both swing "
         "as one piece in the slower mode and the bell is silent. In the faster mode they never swing as one piece.",
-        part=True,
     )
     silent_height: Field[float] = Field(
         "Conical height of the slower mode if both swing as one piece, m: the pendulum length of the clapper plus the "
         "joint.",
-        part=True,
     )
-    mismatch: Field[float] = Field("``h1 - (m + 1) l1 - m (a2 - l2)``, m: 0 if both swing as one piece.", part=True)
+    mismatch: Field[float] = Field("``h1 - (m + 1) l1 - m (a2 - l2)``, m: 0 if both swing as one piece.")
     present: Field[dict[str, float]] = Field(
         "The data: ``clapper_weight``, ``clapper_centroid``, ``clapper_radius_of_gyration``, ``bell_weight``, "
-        "``joint`` (from the axle of the bell to the pin of the clapper), ``bell_centroid``, ``bell_radius_of_gyration``.",
-        part=True,
+        "``joint`` (from the axle of the bell to the pin of the clapper), ``bell_centroid``, "
+        "``bell_radius_of_gyration``.",
     )
     derivative: Field[dict[str, float]] = Field(
-        "Derivative of the first inclination ratio with respect to each datum, the others constant.", part=True
+        "Derivative of the first inclination ratio with respect to each datum, the others constant."
     )
 
+    @described()
     def with_ratio(self, ratio: float) -> dict[str, float]:
         """Return the value of each datum that gives the slower mode a wanted ratio of inclinations.
 
-        Parameters
-        ----------
-        ratio : float
-            Inclination of the clapper divided by that of the bell, positive. With 1 the bell is silent. To keep it
+        ratio: Inclination of the clapper divided by that of the bell, positive. With 1 the bell is silent. To keep it
             ringing, choose a ratio far enough from 1.
+        returns: The values nearest to the present ones, each with the other data constant; NaN if no value gives the
+            ratio.
+        raises: If `ratio` is not positive and finite.
 
-        Returns
-        -------
-        dict
-            The values nearest to the present ones, each with the other data constant; NaN if no value gives the ratio.
-
-        Raises
-        ------
-        ValueError
-            If `ratio` is not positive and finite.
-
-        Examples
-        --------
         How far below the axle must the pin of the clapper be, so that the clapper swings 1.5 times as far as the bell?
 
-        >>> import revchain as rc
         >>> links = {"weight": [18, 500], "length": [0.65, 0.15], "centroid": [0.52, 0.2]}
         >>> chain = rc.Chain(**links, radius_of_gyration=[0.08, 0.3])
         >>> round(rc.bell_and_clapper(chain).with_ratio(1.5)["joint"], 4)
@@ -122,28 +108,14 @@ class BellAndClapper(Result):
         values = _core.bell_and_clapper_with_ratio(self.system._compiled, wanted)
         return dict(zip(_core.BELL_DATA, values, strict=True))
 
+    @described()
     def strike_amplitude(self, clearance: float) -> float:
         """Return the smallest amplitude of the bell at which the clapper reaches its side, for small swings.
 
-        Parameters
-        ----------
-        clearance : float
-            Angle of the clapper in the bell from the middle to the contact, rad (or ``"25 deg"``), below pi/2.
+        returns: ``clearance / abs(inclination_ratio[0] - 1)``, rad: infinite if both swing as one piece. It is exact
+            in the limit of small swings in the slower mode; above half a radian use `first_strike`.
+        raises: If the clearance is not between 0 and pi / 2.
 
-        Returns
-        -------
-        float
-            ``clearance / abs(inclination_ratio[0] - 1)``, rad: infinite if both swing as one piece. It is exact in the
-            limit of small swings in the slower mode; above half a radian use `first_strike`.
-
-        Raises
-        ------
-        ValueError
-            If the clearance is not between 0 and pi / 2.
-
-        Examples
-        --------
-        >>> import revchain as rc
         >>> links = {"mass": [18, 500], "length": [0.65, 0.15], "centroid": [0.52, 0.2]}
         >>> bell = rc.bell_and_clapper(rc.Chain(**links, radius_of_gyration=[0.08, 0.3]))
         >>> round(bell.strike_amplitude("3 deg"), 4)
@@ -153,43 +125,23 @@ class BellAndClapper(Result):
         apart = abs(float(self.inclination_ratio[0]) - 1)
         return gap / apart if apart else math.inf
 
+    @described("angles and speeds to 1e-8 of their size, by integration")
     def first_strike(self, clearance: float, *, amplitude: float | None = None) -> Strike:
         """Return the first blow of the clapper in a swing of the bell; needs SciPy.
 
-        Parameters
-        ----------
-        clearance : float
-            Angle of the clapper in the bell from the middle to the contact, rad (or ``"25 deg"``), below pi/2.
-        amplitude : float, optional
-            Angle from which the bell is released at rest, rad, up to pi; the clapper hangs free or rests on the lower
-            side. If left out, the bell is rung full circle, as in English towers: it falls from the balance, mouth up,
-            with the clapper on the trailing side.
+        amplitude: Angle from which the bell is released at rest, rad, up to pi; the clapper hangs free or rests on
+            the lower side. If left out, the bell is rung full circle, as in English towers: it falls from the
+            balance, mouth up, with the clapper on the trailing side.
+        returns: The first blow up to the next turn of the bell.
+        raises: If the clearance is not between 0 and pi / 2, or the amplitude not between 0 and pi.
+        notes: Bell and clapper are a double pendulum in a plane, without friction, rope or stay; the headstock is
+            stiff. The clapper rests on the side of the bell while the bell pushes it, then flies free. Bounces after
+            the first blow are not computed, because they depend on the metals. The design charts of Woodhouse et al.
+            (2012), doi:10.1155/2012/681787, use the same model for a bell much heavier than its clapper: the result
+            then depends on ``joint / l1`` and ``l2 / l1`` only. If ``l2 = l1 + joint``, a clapper that hangs in the
+            middle stays there. For any weights that condition is `mismatch` = 0, Greenhill (1908), section 8 (16).
+            Without SciPy an ImportError says how to install it.
 
-        Returns
-        -------
-        Strike
-            The first blow up to the next turn of the bell. Accuracy: angles and speeds to 1e-8 of their size, by
-            integration.
-
-        Raises
-        ------
-        ValueError
-            If the clearance is not between 0 and pi / 2, or the amplitude not between 0 and pi.
-        ImportError
-            If SciPy is not installed; the message says how to install it.
-
-        Notes
-        -----
-        Bell and clapper are a double pendulum in a plane, without friction, rope or stay; the headstock is stiff. The
-        clapper rests on the side of the bell while the bell pushes it, then flies free. Bounces after the first blow are
-        not computed, because they depend on the metals. The design charts of Woodhouse et al. (2012),
-        doi:10.1155/2012/681787, use the same model for a bell much heavier than its clapper: the result then depends on
-        ``joint / l1`` and ``l2 / l1`` only. If ``l2 = l1 + joint``, a clapper that hangs in the middle stays there. For
-        any weights that condition is `mismatch` = 0, Greenhill (1908), section 8 (16).
-
-        Examples
-        --------
-        >>> import revchain as rc
         >>> links = {"mass": [18, 500], "length": [0.65, 0.15], "centroid": [0.52, 0.2]}
         >>> bell = rc.bell_and_clapper(rc.Chain(**links, radius_of_gyration=[0.08, 0.3]))
         >>> blow = bell.first_strike("27 deg")
@@ -206,23 +158,13 @@ class BellAndClapper(Result):
 
         return Strike(*first_strike(self.present, gap, from_angle, self.gravity))
 
+    @described()
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw bell, clapper and headstock at rest, true to scale; needs matplotlib.
 
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw in; a new figure if left out.
+        returns: The drawing: the axle, the pin of the clapper, both centres of gravity, and the pendulum lengths beside
+            them. The outline of the bell is only an illustration: the data do not define it.
 
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The drawing: the axle, the pin of the clapper, both centres of gravity, and the pendulum lengths beside them.
-            The outline of the bell is only an illustration: the data do not define it.
-
-        Examples
-        --------
-        >>> import revchain as rc
         >>> links = {"mass": [18, 500], "length": [0.65, 0.15], "centroid": [0.52, 0.05]}
         >>> rc.bell_and_clapper(rc.Chain(**links, radius_of_gyration=[0.08, 0.36])).plot().get_ylabel()
         'depth below axle (m)'
@@ -250,41 +192,21 @@ def _clearance(place: str, clearance: float) -> float:
     return angle
 
 
+@described("2 ulp of heights and ratios; derivatives 1e-15 of the largest", "section 8 (14)-(16)", "O(1)")
 def bell_and_clapper(chain: Chain, *, gravity: float = STANDARD_GRAVITY) -> BellAndClapper:
     """Return the modes of a bell and its clapper, and how far they are from swinging as one piece.
 
-    Parameters
-    ----------
-    chain : Chain
-        Two links, both with weight: the clapper, and above it the bell. The length of the bell is the distance from its
-        axle to the pin of the clapper; the length of the clapper has no effect.
-    gravity : float, optional
-        Acceleration of gravity, positive; standard gravity in m/s^2 if left out.
+    chain: Two links, both with weight: the clapper, and above it the bell. The length of the bell is the distance
+        from its axle to the pin of the clapper; the length of the clapper has no effect.
+    returns: Heights, ratios of inclinations, and how they change with the data.
+    raises: If the chain does not have two links with weight, or `gravity` is not positive. A TypeError if `chain` is
+        not a `Chain`.
+    notes: The ratio r of the inclination of the clapper to that of the bell is a root of
+        ``h1 r^2 - ((m + 1) l1 - m l2 - a2) r - (m + 1) a2 = 0``, one positive and one negative. The conical height is
+        ``l1 + a2 / r``. This holds for small inclinations, and for any inclination if both swing as one piece.
 
-    Returns
-    -------
-    BellAndClapper
-        Heights and ratios to 2 ulp. Cost O(1).
-
-    Raises
-    ------
-    ValueError
-        If the chain does not have two links with weight, or `gravity` is not positive.
-    TypeError
-        If `chain` is not a `Chain`.
-
-    Notes
-    -----
-    The ratio r of the inclination of the clapper to that of the bell is a root of
-    ``h1 r^2 - ((m + 1) l1 - m l2 - a2) r - (m + 1) a2 = 0``, one positive and one negative. The conical height is
-    ``l1 + a2 / r``. This holds for small inclinations, and for any inclination if both swing as one piece. Source:
-    Greenhill (1908), section 8 (14)-(16).
-
-    Examples
-    --------
     The ratio grows with the distance of the centre of gravity of the bell below the axle:
 
-    >>> import revchain as rc
     >>> chain = rc.Chain(weight=[18, 500], length=[0.65, 0.15], centroid=[0.52, 0.2], radius_of_gyration=[0.08, 0.3])
     >>> rc.bell_and_clapper(chain).derivative["bell_centroid"] > 0
     True

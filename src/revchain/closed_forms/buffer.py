@@ -3,15 +3,15 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
 from ..results.sheet import Column, Sheet
-from ..systems.numbers import floats, numbers, reals
 from .solved import Solved
+from .table import FloatOrArray, described
 
 __all__ = ["Blow", "BufferImpact", "CarriageState"]
 
@@ -25,45 +25,29 @@ class Blow(NamedTuple):
 
 
 class CarriageState(NamedTuple):
-    """Displacements of both carriages towards the buffer since time 0, their speeds, and the buffer force (0 if apart)."""
+    """Displacements of both carriages towards the buffer since time 0, their speeds, the buffer force (0 if apart)."""
 
-    front: Any
-    rear: Any
-    front_speed: Any
-    rear_speed: Any
-    buffer_force: Any
+    front: FloatOrArray
+    rear: FloatOrArray
+    front_speed: FloatOrArray
+    rear_speed: FloatOrArray
+    buffer_force: FloatOrArray
 
 
+@described(source="section 2, text after (7)")
 class BufferImpact(Solved):
     """The motion of two carriages that run against a buffer stop.
 
     In contact, the carriages oscillate as a double pendulum of two point masses does. The buffer pushes and never
     pulls. Units: any consistent set.
 
-    Parameters
-    ----------
-    front_mass, rear_mass : float
-        Masses of the carriages, positive.
-    buffer_stiffness, coupling_stiffness : float
-        Stiffnesses of the springs, positive. The coupling pulls and pushes; it is without force at first.
-    speed : float
-        Speed of both carriages towards the buffer at time 0, when the front one touches it; positive.
+    speed: Speed of both carriages towards the buffer at time 0, when the front one touches it
+    raises: If a number is not positive and finite, or there are more than 100,000 blows.
+    notes: Accuracy, measured against integration, if no blow only grazes the buffer: positions to 1e-13 of speed times
+        time, speeds to 1e-13 of the speed and of acceleration times time, times to 1e-13 of the last time. Cost: 2
+        microseconds for each blow, 0.1 for a state. Carriages of about equal mass give one to three blows; a heavy one
+        behind a light one gives hundreds.
 
-    Raises
-    ------
-    ValueError
-        If a number is not positive and finite, or there are more than 100,000 blows.
-
-    Notes
-    -----
-    Accuracy, measured against integration, if no blow only grazes the buffer: positions to 1e-13 of speed times time,
-    speeds to 1e-13 of the speed and of acceleration times time, times to 1e-13 of the last time. Cost: 2 microseconds
-    for each blow, 0.1 for a state. Carriages of about equal mass give one to three blows; a heavy one behind a light one
-    gives hundreds. Source: Greenhill (1908), section 2, text after (7).
-
-    Examples
-    --------
-    >>> import revchain as rc
     >>> rc.BufferImpact(front_mass=1, rear_mass=1, buffer_stiffness=4, coupling_stiffness=0.5, speed=1)
     BufferImpact: 2 blows
     blow    start      end  impulse
@@ -77,36 +61,24 @@ class BufferImpact(Solved):
     def __init__(
         self, *, front_mass: float, rear_mass: float, buffer_stiffness: float, coupling_stiffness: float, speed: float
     ) -> None:
-        masses = {"front_mass": front_mass, "rear_mass": rear_mass}
-        springs = {"buffer_stiffness": buffer_stiffness, "coupling_stiffness": coupling_stiffness}
-        self._solve(reals("revchain.BufferImpact", **masses, **springs, speed=speed))
+        self._solve(locals())
 
     @property
     def blows(self) -> list[Blow]:
         """Start, end and impulse of each contact with the buffer."""
         return [Blow(*row) for row in self._found().blows.tolist()]
 
+    @described()
     def state(self, time: ArrayLike) -> CarriageState:
         """Return the positions and speeds of the carriages, and the force of the buffer.
 
-        Parameters
-        ----------
-        time : array_like
-            Times, finite and not negative, any shape.
+        time: Times, finite and not negative, any shape
 
-        Returns
-        -------
-        CarriageState
-            Arrays with the shape of `time`.
-
-        Examples
-        --------
-        >>> import revchain as rc
         >>> impact = rc.BufferImpact(front_mass=1, rear_mass=1, buffer_stiffness=4, coupling_stiffness=0.5, speed=1)
         >>> round(float(impact.state(1.0).buffer_force), 6)
         1.87221
         """
-        return CarriageState(*numbers(self._found().state(floats("revchain.BufferImpact.state", "time", time))))
+        return CarriageState(*self._at("state", "time", time))
 
     def _sheet(self, brief: bool = False) -> Sheet:
         blows = self._found().blows

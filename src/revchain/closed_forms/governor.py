@@ -7,14 +7,15 @@ from the downward vertical. Source: Greenhill (1908), section 7.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from numpy.typing import ArrayLike
 
 from .. import _core
 from ..results.base import Field
-from ..systems.numbers import STANDARD_GRAVITY, floats, numbers, reals
+from ..systems.numbers import STANDARD_GRAVITY
 from .solved import Solved
+from .table import FloatOrArray, described
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -25,42 +26,24 @@ __all__ = ["GovernorMotion", "GovernorState"]
 class GovernorState(NamedTuple):
     """Angle in rad (whole turns included) and its rate in rad/s."""
 
-    angle: Any
-    angle_rate: Any
+    angle: FloatOrArray
+    angle_rate: FloatOrArray
 
 
+@described(cost="2 microseconds, and 0.2 for each time", source="section 7 (1)-(13)")
 class GovernorMotion(Solved):
     """The motion of a link hinged on a turning axis.
 
-    Parameters
-    ----------
-    angular_speed : float
-        Speed of the axis, rad/s; 0 for a pendulum that does not turn.
-    pendulum_length : float
-        Length of the equivalent simple pendulum about the hinge, positive.
-    angle, angle_rate : float
-        Angle of the link and its rate at time 0.
-    gravity : float
-        Acceleration of gravity; negative for an inverted axis.
-    axial_inertia : float
-        Moment of inertia about the line of the link, divided by that about the hinge; 0 to 1.
+    angular_speed: Speed of the axis, rad/s; 0 for a pendulum that does not turn.
+    pendulum_length: Length of the equivalent simple pendulum about the hinge
+    gravity: Acceleration of gravity; negative for an inverted axis.
+    raises: If a number is not finite, `pendulum_length` is not positive, or `axial_inertia` is not from 0 to 1; if
+        numbers differ by a factor of 1e150 or more, so that no digit of the motion is correct.
+    notes: Accuracy, measured against integration in quadruple precision: angles to 1e-13 of the greatest angle and of
+        ``t`` times the greatest rate; rates to 1e-13 of the greatest rate and of ``t`` times the greatest
+        acceleration. After 1e13 periods no digit is correct. Close to a motion that never returns, the rounding of
+        the start to double limits the accuracy.
 
-    Raises
-    ------
-    ValueError
-        If a number is not finite, `pendulum_length` is not positive, or `axial_inertia` is not from 0 to 1; if numbers
-        differ by a factor of 1e150 or more, so that no digit of the motion is correct.
-
-    Notes
-    -----
-    Accuracy, measured against integration in quadruple precision: angles to 1e-13 of the greatest angle and of ``t``
-    times the greatest rate; rates to 1e-13 of the greatest rate and of ``t`` times the greatest acceleration. After 1e13
-    periods no digit is correct. Close to a motion that never returns, the rounding of the start to double limits the
-    accuracy. Cost: 2 microseconds, and 0.2 for each time. Source: Greenhill (1908), section 7 (1)-(13).
-
-    Examples
-    --------
-    >>> import revchain as rc
     >>> swing = rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5)
     >>> swing.regime, round(swing.period, 4), round(swing.least_angle, 4)
     ('aside', 1.442, 0.7759)
@@ -86,57 +69,26 @@ class GovernorMotion(Solved):
         self, *, angular_speed: float, pendulum_length: float, angle: float, angle_rate: float = 0.0,
         gravity: float = STANDARD_GRAVITY, axial_inertia: float = 0.0,
     ) -> None:
-        link = {"pendulum_length": pendulum_length, "gravity": gravity, "axial_inertia": axial_inertia}
-        start = {"angle": angle, "angle_rate": angle_rate}
-        self._solve(reals("revchain.GovernorMotion", angular_speed=angular_speed, **link, **start))
+        self._solve(locals())
 
+    @described()
     def state(self, time: ArrayLike) -> GovernorState:
         """Return the angle and its rate.
 
-        Parameters
-        ----------
-        time : array_like
-            Times in s, finite, any shape.
-
-        Returns
-        -------
-        GovernorState
-            Arrays with the shape of `time`.
-
-        Examples
-        --------
-        >>> import revchain as rc
         >>> swing = rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5)
         >>> swing.state([0.0, 0.3]).angle.round(4)
         array([1.5   , 1.2026])
         """
-        return GovernorState(*numbers(self._found().state(floats("revchain.GovernorMotion.state", "time", time))))
+        return GovernorState(*self._at("state", "time", time))
 
+    @described()
     def plot(self, ax: Axes | None = None, *, duration: float | None = None) -> Axes:
         """Draw the angle against time, with its smallest and largest values; needs matplotlib.
 
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw in; a new figure if left out.
-        duration : float, optional
-            Length of the time axis in s; two periods if left out.
+        duration: Length of the time axis in s; two periods if left out.
+        raises: If the motion never returns and no `duration` is given, or if `duration` is not positive and finite.
 
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The drawing.
-
-        Raises
-        ------
-        ValueError
-            If the motion never returns and no `duration` is given, or if `duration` is not positive and finite.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> ax = rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5).plot()
-        >>> ax.get_ylabel()
+        >>> rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5).plot().get_ylabel()
         'angle (degrees)'
         """
         from ..plots.closed_forms import plot_governor

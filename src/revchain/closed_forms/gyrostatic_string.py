@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from .. import _core
 from ..systems.numbers import STANDARD_GRAVITY, count, floats, numbers, one_positive, real, refuse_where
+from .table import FloatOrArray, described
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -28,10 +29,16 @@ class WaveSpeeds(NamedTuple):
     -4.8272
     """
 
-    forward: Any
-    backward: Any
+    forward: FloatOrArray
+    backward: FloatOrArray
 
 
+@described(
+    "speeds 4 ulp; phases 4 ulp and rotations 8 ulp, divided by the cosine of half the phase, for any momentum, if the "
+    "terms of the balance do not cancel",
+    "section 8, after Thomson (Lord Kelvin)",
+    "O(1) for each number",
+)
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GyrostaticString:
     """Equal links jointed in a row under tension, each with a flywheel about its own axis.
@@ -42,35 +49,15 @@ class GyrostaticString:
     other. A planar vibration is the sum of two circular waves. Its plane therefore turns along the string, as the plane
     of polarized light does in a magnetized body.
 
-    Parameters
-    ----------
-    weight, length : float
-        Weight of a link with its wheel, and distance between its pins; positive.
-    tension : float
-        Tension of the string, positive.
-    momentum : float
-        Constant angular momentum of each wheel (moment of inertia times spin), in force times length times time.
-    centroid : float, optional
-        Distance of the centre of gravity of a link from a pin; the middle if left out.
-    radius_of_gyration : float
-        Radius of gyration of a link about an axis across the line through its centre of gravity; not negative.
-    gravity : float
-        Acceleration of gravity, which relates `weight` to mass; positive; standard gravity in m/s^2 if left out.
+    weight: Weight of a link with its wheel
+    length: Distance between the pins of a link
+    tension: Tension of the string, a force
+    centroid: Distance of the centre of gravity of a link from a pin; the middle if left out.
+    radius_of_gyration: Radius of gyration of a link about an axis across the line through its centre of gravity
+    gravity: Acceleration of gravity, which relates `weight` to mass (standard gravity in m/s^2 if left out)
+    raises: If a number is out of its range or not finite.
+    notes: The model is for small offsets; the weight of the links acts only as inertia.
 
-    Raises
-    ------
-    ValueError
-        If a number is out of its range or not finite.
-
-    Notes
-    -----
-    The model is for small offsets; the weight of the links acts only as inertia. Accuracy, if the terms of the balance
-    do not cancel: speeds 4 ulp; phases 4 ulp and rotations 8 ulp, divided by the cosine of half the phase, for any
-    momentum. Cost: O(1) for each number. Source: Greenhill (1908), section 8, after Thomson (Lord Kelvin).
-
-    Examples
-    --------
-    >>> import revchain as rc
     >>> momentum = 15.0 / 9.80665 * 0.29**2 * 40.0
     >>> wheels = rc.GyrostaticString(weight=15.0, length=0.1, tension=2000.0, radius_of_gyration=0.2, momentum=momentum)
     >>> float(wheels.plane_rotation(20.0).round(6))
@@ -92,66 +79,38 @@ class GyrostaticString:
             object.__setattr__(self, name, checked("revchain.GyrostaticString", name, given))
         self.phase(0.0)  # the compiled function checks the rest
 
-    def phase(self, angular_speed: ArrayLike) -> Any:
+    @described()
+    def phase(self, angular_speed: ArrayLike) -> FloatOrArray:
         """Return the phase by which each pin of a circular wave lags its neighbour.
 
-        Parameters
-        ----------
-        angular_speed : array_like
-            Speeds in rad/s, finite, positive or negative.
+        angular_speed: Speeds in rad/s, finite, positive or negative.
+        returns: Phase in rad, from 0 to pi.
 
-        Returns
-        -------
-        float or ndarray
-            Phase in rad, from 0 to pi.
-
-        Examples
-        --------
-        >>> import revchain as rc
         >>> string = rc.GyrostaticString(weight=9.80665, length=1.0, tension=100.0, momentum=0.0, centroid=1.0)
         >>> float(string.phase(20.0).round(6))
         3.141593
         """
         return self._at("phase", "angular_speed", angular_speed, _core.gyrostatic_string_phase)[0]
 
-    def attenuation(self, angular_speed: ArrayLike) -> Any:
+    @described()
+    def attenuation(self, angular_speed: ArrayLike) -> FloatOrArray:
         """Return the logarithmic decrease of the amplitude of a circular wave from link to link.
 
-        Parameters
-        ----------
-        angular_speed : array_like
-            Speeds in rad/s, finite, positive or negative.
+        angular_speed: Speeds in rad/s, finite, positive or negative.
+        returns: Decrease; 0 if the wave passes without loss.
 
-        Returns
-        -------
-        float or ndarray
-            Decrease; 0 if the wave passes without loss.
-
-        Examples
-        --------
-        >>> import revchain as rc
         >>> string = rc.GyrostaticString(weight=9.80665, length=1.0, tension=100.0, momentum=0.0, centroid=1.0)
         >>> string.attenuation([10.0, 40.0]).round(6)
         array([0.      , 2.633916])
         """
         return self._at("attenuation", "angular_speed", angular_speed, _core.gyrostatic_string_phase)[1]
 
+    @described()
     def angular_speeds(self, phase: ArrayLike) -> WaveSpeeds:
         """Return the speeds of the two circular waves with a given phase from link to link.
 
-        Parameters
-        ----------
-        phase : array_like
-            Phase in rad, above 0 and at most pi; other values raise a ValueError.
+        phase: Phase in rad, above 0 and at most pi; other values raise a ValueError.
 
-        Returns
-        -------
-        WaveSpeeds
-            Arrays with the shape of `phase`.
-
-        Examples
-        --------
-        >>> import revchain as rc
         >>> string = rc.GyrostaticString(weight=9.80665, length=1.0, tension=100.0, momentum=1.0, centroid=1.0)
         >>> waves = string.angular_speeds([0.5, 1.0])
         >>> waves.forward.round(4), waves.backward.round(4)
@@ -159,23 +118,14 @@ class GyrostaticString:
         """
         return WaveSpeeds(*self._at("angular_speeds", "phase", phase, _core.gyrostatic_string_speeds))
 
-    def plane_rotation(self, angular_speed: ArrayLike) -> Any:
+    @described()
+    def plane_rotation(self, angular_speed: ArrayLike) -> FloatOrArray:
         """Return the angle by which the plane of a planar vibration turns from link to link.
 
-        Parameters
-        ----------
-        angular_speed : array_like
-            Angular frequency of the vibration, rad/s, positive and finite; other values raise a ValueError.
+        angular_speed: Angular frequency of the vibration, rad/s, positive and finite; other values raise a ValueError.
+        returns: Angle in rad, in the direction of a positive momentum. It is equal for waves that run either way, and
+            NaN if one of the two circular waves does not pass.
 
-        Returns
-        -------
-        float or ndarray
-            Angle in rad, in the direction of a positive momentum. It is equal for waves that run either way, and NaN if
-            one of the two circular waves does not pass.
-
-        Examples
-        --------
-        >>> import revchain as rc
         >>> string = rc.GyrostaticString(weight=9.80665, length=1.0, tension=100.0, momentum=1e-9, centroid=1.0)
         >>> bool(string.plane_rotation(10.0) > 0)
         True
@@ -185,22 +135,10 @@ class GyrostaticString:
         refuse_where(~(speed > 0), speed, f"{place}: angular_speed must be positive")
         return self._at("plane_rotation", "angular_speed", speed, _core.gyrostatic_string_rotation)[0]
 
+    @described()
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the speeds of circular waves in both directions against their phase; needs matplotlib.
 
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw in; a new figure if left out.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The drawing.
-
-        Examples
-        --------
-        >>> import revchain as rc
         >>> string = rc.GyrostaticString(weight=9.80665, length=1.0, tension=100.0, momentum=1.0)
         >>> string.plot().get_xlabel()
         'phase difference between links (degrees)'
@@ -209,31 +147,14 @@ class GyrostaticString:
 
         return plot_waves(self, ax)
 
+    @described()
     def plot_vibration(self, angular_speed: float, links: int = 60, ax: Axes | None = None) -> Axes:
         """Draw the turning plane of a vibration along the string, from the side and from the end; needs matplotlib.
 
-        Parameters
-        ----------
-        angular_speed : float
-            Angular frequency of the vibration, rad/s, positive.
-        links : int
-            Number of links to draw.
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw in; a new figure if left out.
+        angular_speed: Angular frequency of the vibration, rad/s
+        links: Number of links to draw.
+        raises: If one of the two circular waves does not pass at that speed.
 
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The drawing.
-
-        Raises
-        ------
-        ValueError
-            If one of the two circular waves does not pass at that speed.
-
-        Examples
-        --------
-        >>> import revchain as rc
         >>> string = rc.GyrostaticString(weight=9.80665, length=1.0, tension=100.0, momentum=1.0)
         >>> string.plot_vibration(8.0).get_xlabel()
         'link'
@@ -248,16 +169,5 @@ class GyrostaticString:
             raise ValueError(f"{place}: a circular wave does not pass at angular_speed, got {speed:g}")
         return plot_vibration(turn, float(self.phase(speed) + self.phase(-speed)) / 2, size, ax)
 
-    def _at(self, method: str, name: str, value: ArrayLike, function: Any) -> tuple[Any, ...]:
+    def _at(self, method: str, name: str, value: ArrayLike, function: Any) -> tuple[FloatOrArray, ...]:
         return tuple(numbers(function(floats(f"revchain.GyrostaticString.{method}", name, value), **asdict(self))))
-
-
-GyrostaticString.__slots__ = {  # type: ignore[assignment]  # `help` reads them here
-    "weight": "Weight of a link with its wheel.",
-    "length": "Distance between the pins of a link.",
-    "tension": "Tension of the string.",
-    "momentum": "Constant angular momentum of each wheel.",
-    "centroid": "Distance of the centre of gravity of a link from a pin.",
-    "radius_of_gyration": "Radius of gyration of a link about an axis across the line through its centre of gravity.",
-    "gravity": "Acceleration of gravity, which relates weight to mass.",
-}

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# mypy: disable-error-code="empty-body"
 """One point mass (the paper's plummet) on threads: circling at any inclination, held by a second thread, carried round.
 
-`height` is the conical height ``gravity / angular_speed**2`` of the motion. All lengths are in one unit; tensions are
-divided by the weight; angles are in radians. All functions broadcast; single numbers give single numbers. Cost: O(1) for
-each number. A number that is not positive and finite raises a ValueError. Source: Greenhill (1908), section 1; numbers
-in brackets are its equations.
+All lengths are in one unit; tensions are divided by the weight; angles are in radians. Source: Greenhill (1908),
+section 1; numbers in brackets are its equations.
 """
 
 from __future__ import annotations
@@ -15,7 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
-from ..systems.numbers import Floats, numbers, positives
+from ..systems.numbers import Floats, numbers
+from .table import FloatOrArray, closed_form
 
 __all__ = [
     "HeldPlummet", "InclinedPendulum", "air_resistance", "carried_inclinations", "carried_response", "held_plummet",
@@ -33,10 +33,10 @@ class InclinedPendulum(NamedTuple):
     1.0
     """
 
-    inclination: Any
-    radius: Any
-    depth: Any
-    tension: Any
+    inclination: FloatOrArray
+    radius: FloatOrArray
+    depth: FloatOrArray
+    tension: FloatOrArray
 
 
 class HeldPlummet(NamedTuple):
@@ -52,68 +52,54 @@ class HeldPlummet(NamedTuple):
     (0.6, 2.5, 0.833333)
     """
 
-    radius: Any
-    depth: Any
-    upper_tension: Any
-    lower_tension: Any
-    upper_taut: Any
-    lower_taut: Any
+    radius: FloatOrArray
+    depth: FloatOrArray
+    upper_tension: FloatOrArray
+    lower_tension: FloatOrArray
+    upper_taut: np.bool_ | np.ndarray[Any, np.dtype[np.bool_]]
+    lower_taut: np.bool_ | np.ndarray[Any, np.dtype[np.bool_]]
 
 
+def _held(found: tuple[Floats, ...]) -> HeldPlummet:
+    radius, depth, upper, lower = numbers(found)
+    return HeldPlummet(radius, depth, upper, lower, np.greater(upper, 0), np.greater(lower, 0))
+
+
+def _inclinations(padded: tuple[Floats, ...]) -> Floats | list[Floats]:
+    rows = np.stack(padded, axis=-1)
+    found = [row[~np.isnan(row)] for row in rows.reshape(-1, 3)]
+    return found if rows.ndim > 1 else found[0]
+
+
+@closed_form(_core.inclined_pendulum, "3 ulp", "section 1 (1)")
 def inclined_pendulum(length: ArrayLike, height: ArrayLike) -> InclinedPendulum:
-    """Return the steady motion of a point mass on a thread at a given speed (1).
+    """Return the steady motion of a point mass on a thread at a given speed.
 
-    Parameters
-    ----------
-    length, height : array_like
-        Length of the thread and conical height, positive.
+    returns: If `height` is less than `length`, the thread is inclined and `height` is the depth; else the thread hangs
+        vertically.
 
-    Returns
-    -------
-    InclinedPendulum
-        Broadcast shape, within 3 ulp. If `height` is less than `length`, the thread is inclined and `height` is the
-        depth; else the thread hangs vertically.
-
-    Examples
-    --------
-    >>> import revchain as rc
     >>> swing = rc.plummet.inclined_pendulum(length=2.0, height=1.0)
     >>> round(float(swing.inclination), 6), float(swing.tension)
     (1.047198, 2.0)
     """
-    place = "revchain.plummet.inclined_pendulum"
-    return InclinedPendulum(*numbers(_core.inclined_pendulum(*positives(place, length=length, height=height))))
 
 
+@closed_form(
+    _core.held_plummet,
+    "3 ulp; a depth or a tension that nearly vanishes is within 1e-29 of the larger of the two terms that it is the "
+    "difference of",
+    "section 1, polygon of forces",
+    made=_held,
+)
 def held_plummet(
     upper_thread: ArrayLike, lower_thread: ArrayLike, distance: ArrayLike, height: ArrayLike
 ) -> HeldPlummet:
-    """Return the steady motion of a point mass on two threads: the lower one limits the radius (polygon of forces).
+    """Return the steady motion of a point mass on two threads: the lower one limits the radius.
 
-    Parameters
-    ----------
-    upper_thread, lower_thread : array_like
-        Lengths of the threads, positive.
-    distance : array_like
-        Distance along the axis from the tie of the upper thread down to that of the lower one, positive.
-    height : array_like
-        Conical height, positive.
+    returns: With D the depth at which both threads are straight, the lower thread is slack if ``height >= D``, and the
+        upper one if ``height <= D - distance``.
+    raises: If the three lengths do not form a triangle.
 
-    Returns
-    -------
-    HeldPlummet
-        Broadcast shape, within 3 ulp; a depth or a tension that nearly vanishes is within 1e-29 of the larger of the two
-        terms that it is the difference of. With D the depth at which both threads are straight, the lower thread is slack
-        if ``height >= D``, and the upper one if ``height <= D - distance``.
-
-    Raises
-    ------
-    ValueError
-        If the three lengths do not form a triangle.
-
-    Examples
-    --------
-    >>> import revchain as rc
     >>> held = rc.plummet.held_plummet(1.0, 1.0, distance=1.2, height=0.3)
     >>> round(float(held.radius), 6), bool(held.lower_taut)
     (0.8, True)
@@ -121,105 +107,58 @@ def held_plummet(
     >>> round(float(slow.radius), 6), float(slow.upper_tension), bool(slow.lower_taut)
     (0.6, 1.25, False)
     """
-    place = "revchain.plummet.held_plummet"
-    given = positives(place, upper_thread=upper_thread, lower_thread=lower_thread, distance=distance, height=height)
-    radius, depth, upper, lower = numbers(_core.held_plummet(*given))
-    return HeldPlummet(radius, depth, upper, lower, np.greater(upper, 0), np.greater(lower, 0))
 
 
-def air_resistance(arm: ArrayLike, height: ArrayLike) -> Any:
-    """Return the air resistance of the mass of a whirling machine divided by its weight, ``arm / height`` (8).
+@closed_form(_core.air_resistance, "0.5 ulp", "section 1 (8)")
+def air_resistance(arm: ArrayLike, height: ArrayLike) -> FloatOrArray:
+    """Return the air resistance of the mass of a whirling machine divided by its weight, ``arm / height``.
 
-    Parameters
-    ----------
-    arm, height : array_like
-        Length of the arm that carries the thread, perpendicular to the plane of axis and mass, and conical height;
-        positive.
-
-    Returns
-    -------
-    float or ndarray
-        Broadcast shape, within 0.5 ulp.
-
-    Examples
-    --------
-    >>> import revchain as rc
     >>> float(rc.plummet.air_resistance(arm=0.1, height=0.5))
     0.2
     """
-    return _core.air_resistance(*positives("revchain.plummet.air_resistance", arm=arm, height=height))
 
 
-def whirling_thread(arm: ArrayLike, height: ArrayLike, radius: ArrayLike) -> Any:
-    """Return the thread of a whirling machine whose arm is perpendicular to the plane of axis and mass (after (8)).
+@closed_form(_core.whirling_thread, "2 ulp", "section 1, text after (8)")
+def whirling_thread(arm: ArrayLike, height: ArrayLike, radius: ArrayLike) -> FloatOrArray:
+    """Return the thread of a whirling machine whose arm is perpendicular to the plane of axis and mass.
 
-    Parameters
-    ----------
-    arm, height, radius : array_like
-        Arm and conical height as in `air_resistance`, and radius of the circle of the mass; positive.
+    radius: Radius of the circle of the mass
+    returns: Length of the thread, ``sqrt(arm**2 + height**2 + radius**2)``.
 
-    Returns
-    -------
-    float or ndarray
-        ``sqrt(arm**2 + height**2 + radius**2)``, broadcast shape, within 2 ulp.
-
-    Examples
-    --------
-    >>> import revchain as rc
     >>> float(rc.plummet.whirling_thread(arm=1.0, height=2.0, radius=2.0))
     3.0
     """
-    return _core.whirling_thread(*positives("revchain.plummet.whirling_thread", **locals()))
 
 
-def carried_response(length: ArrayLike, height: ArrayLike) -> Any:
-    """Return the offset of a point mass divided by that of its moving support (base excitation) (9).
+@closed_form(_core.carried_response, "1.1 ulp", "section 1 (9)")
+def carried_response(length: ArrayLike, height: ArrayLike) -> FloatOrArray:
+    """Return the offset of a point mass divided by that of its moving support (base excitation).
 
-    Parameters
-    ----------
-    length, height : array_like
-        Length of the thread and conical height of the motion of the support, positive. The support moves in a circle or
-        to and fro.
+    The support moves in a circle or to and fro; `height` is the conical height of that motion.
 
-    Returns
-    -------
-    float or ndarray
-        ``height / (height - length)`` for small inclinations, broadcast shape, within 1.1 ulp. It is infinite at
-        resonance and negative (in antiphase) above the resonant speed.
+    returns: ``height / (height - length)`` for small inclinations. It is infinite at resonance and negative (in
+        antiphase) above the resonant speed.
 
-    Examples
-    --------
-    >>> import revchain as rc
     >>> rc.plummet.carried_response(1.0, [3.0, 1.5, 0.5])
     array([ 1.5,  3. , -1. ])
     """
-    return _core.carried_response(*positives("revchain.plummet.carried_response", length=length, height=height))
 
 
+@closed_form(
+    _core.carried_inclinations,
+    "4 ulp; where two roots nearly meet, times ``1 / (1 - (cos at which two meet / cos of the root)**3)``",
+    "section 1",
+    cost="1 microsecond for each number",
+    made=_inclinations,
+)
 def carried_inclinations(length: ArrayLike, height: ArrayLike, radius: ArrayLike) -> Floats | list[Floats]:
     """Return all steady inclinations of a point mass whose support is carried round a circle.
 
-    Parameters
-    ----------
-    length, height, radius : array_like
-        Length of the thread, conical height, radius of the circle of the support; positive.
+    radius: Radius of the circle of the support
+    returns: For numbers an array; for arrays a list with one array for each element of the broadcast shape, in C order.
+        The inclinations are the roots of ``height tan d = radius + length sin d``, rad, ascending from -pi/2 to pi/2,
+        outwards positive. There is one, or three if ``radius**(2/3) <= length**(2/3) - height**(2/3)``.
 
-    Returns
-    -------
-    ndarray, or list of ndarray
-        For numbers an array; for arrays a list with one array for each element of the broadcast shape, in C order. The
-        inclinations are the roots of ``height tan d = radius + length sin d``, rad, ascending from -pi/2 to pi/2, outwards
-        positive. There is one, or three if ``radius**(2/3) <= length**(2/3) - height**(2/3)``. Accuracy: 4 ulp; where two
-        roots nearly meet, times ``1 / (1 - (cos at which two meet / cos of the root)**3)``. Cost: 1 microsecond for each.
-
-    Examples
-    --------
-    >>> import revchain as rc
     >>> rc.plummet.carried_inclinations(1.0, height=0.25, radius=0.1).round(4)
     array([-1.288 , -0.1341,  1.3421])
     """
-    place = "revchain.plummet.carried_inclinations"
-    given = positives(place, length=length, height=height, radius=radius)
-    padded = np.stack(_core.carried_inclinations(*given), axis=-1)
-    found = [row[~np.isnan(row)] for row in padded.reshape(-1, 3)]
-    return found if padded.ndim > 1 else found[0]

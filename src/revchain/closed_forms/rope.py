@@ -13,8 +13,9 @@ from numpy.typing import ArrayLike
 
 from .. import _core
 from ..results.base import Field
-from ..systems.numbers import STANDARD_GRAVITY, as_length, count, floats, numbers, one_positive, real, reals
+from ..systems.numbers import STANDARD_GRAVITY, one_positive, real
 from .solved import Solved
+from .table import FloatOrArray, described
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -29,68 +30,45 @@ class RopePoints(NamedTuple):
     `slope`: ``d offset / dx``. `tension_ratio`: tension divided by that in the middle of a half wave.
     """
 
-    x: Any
-    arc: Any
-    offset: Any
-    slope: Any
-    tension_ratio: Any
+    x: FloatOrArray
+    arc: FloatOrArray
+    offset: FloatOrArray
+    slope: FloatOrArray
+    tension_ratio: FloatOrArray
 
 
 class TortuousPoints(NamedTuple):
     """Points of a tortuous rope.
 
-    `x`, `arc`: distances along the axis and along the rope from the point nearest to the axis. `radius`: distance from
-    the axis. `angle`: angle round the axis; for the plane rope -pi/2 and pi/2 on either side of ``x = 0``.
-    `radius_slope`, `angle_slope`: ``d radius / dx``, ``d angle / dx``. `tension_ratio`: tension divided by its component
-    along the axis.
+    `x`, `arc`: distances along the axis and along the rope from the point nearest to the axis. `radius`: distance
+    from the axis. `angle`: angle round the axis; for the plane rope -pi/2 and pi/2 on either side of ``x = 0``.
+    `radius_slope`, `angle_slope`: ``d radius / dx``, ``d angle / dx``. `tension_ratio`: tension divided by its
+    component along the axis.
     """
 
-    x: Any
-    arc: Any
-    radius: Any
-    angle: Any
-    radius_slope: Any
-    angle_slope: Any
-    tension_ratio: Any
+    x: FloatOrArray
+    arc: FloatOrArray
+    radius: FloatOrArray
+    angle: FloatOrArray
+    radius_slope: FloatOrArray
+    angle_slope: FloatOrArray
+    tension_ratio: FloatOrArray
 
 
+@described("1e-14 relative for what the two given data determine well", "section 5 (1), (2)")
 class SkippingRope(Solved):
     """A rope that whirls between two points of the axis without gravity: ``offset = sag sn(K x/a)``.
 
-    Give two of five data: `span`, `length`, `slack`, `sag`, and the pair of `tension` and `angular_speed`. To two of the
-    first four you may add one of `tension` and `angular_speed`.
+    Give two of five data: `span`, `length`, `slack`, `sag`, and the pair of `tension` and `angular_speed`. To two of
+    the first four you may add one of `tension` and `angular_speed`.
 
-    Parameters
-    ----------
-    span, length : float, optional
-        Distance between the ends, and length of the whole rope, positive.
-    slack : float, optional
-        ``length - span``, positive; give it if the two are nearly equal.
-    sag : float, optional
-        The largest offset, positive.
-    angular_speed : float, optional
-        Turning speed, rad/s, positive.
-    tension : float, optional
-        Tension in the middle of a half wave, positive.
-    half_waves : int, optional
-        Number of half waves between the ends.
-    gravity : float, optional
-        Acceleration of gravity; it only relates weight to mass; standard gravity in m/s^2 if left out.
+    length: Length of the whole rope
+    tension: Tension in the middle of a half wave, as the length of rope of equal weight
+    gravity: Acceleration of gravity, which only relates weight to mass (standard gravity in m/s^2 if left out)
+    raises: If a number is not positive and finite, if too few or too many are given, or if no rope has them: the length
+        does not exceed the span, the sag is not below half the length, or the rope is too slow or too tight to bend.
+    notes: Cost: 20 microseconds, and for each point 0.2 by `at` or 10 by `at_arc`.
 
-    Raises
-    ------
-    ValueError
-        If a number is not positive and finite, if too few or too many are given, or if no rope has them: the length does
-        not exceed the span, the sag is not below half the length, or the rope is too slow or too tight to bend.
-
-    Notes
-    -----
-    Accuracy: 1e-14 relative for what the two given data determine well. Cost: 20 microseconds, and for each place 0.2 by
-    `at` or 10 by `at_arc`. Source: Greenhill (1908), section 5 (1), (2).
-
-    Examples
-    --------
-    >>> import revchain as rc
     >>> rope = rc.SkippingRope(span=2.0, length=3.0, angular_speed=12.0)
     >>> round(rope.sag, 6), round(rope.tension_in_the_middle, 6)
     (1.031409, 7.397524)
@@ -102,7 +80,9 @@ class SkippingRope(Solved):
     has_speed: Field[bool] = Field("Whether angular speed or tension was given; both are then known.")
     angular_speed: Field[float] = Field("Turning speed, rad/s; a ValueError if neither speed nor tension was given.")
     conical_height: Field[float] = Field("Conical height of the speed; a ValueError if the speed raises one.")
-    tension_in_the_middle: Field[float] = Field("Tension in the middle of a half wave; a ValueError if the speed raises one.")
+    tension_in_the_middle: Field[float] = Field(
+        "Tension in the middle of a half wave; a ValueError if the speed raises one."
+    )
     tension_at_ends: Field[float] = Field("Tension at every node; a ValueError if the speed raises one.")
     half_waves: Field[int] = Field("Number of half waves between the ends.")
     span: Field[float] = Field("Distance between the ends.")
@@ -118,6 +98,7 @@ class SkippingRope(Solved):
         "Complementary modulus; it is more accurate than the modulus if the rope is mostly radial."
     )
     _solver = _core.SkippingRope
+    _optional = ("span", "length", "slack", "sag", "angular_speed", "tension")
     _row = "rope"
 
     def __init__(
@@ -125,73 +106,39 @@ class SkippingRope(Solved):
         sag: float | None = None, angular_speed: float | None = None, tension: float | None = None,
         half_waves: int = 1, gravity: float = STANDARD_GRAVITY,
     ) -> None:
-        place = "revchain.SkippingRope"
-        lengths = {"span": span, "length": length, "slack": slack, "sag": sag}
-        given = lengths | {"angular_speed": angular_speed, "tension": as_length(place, "tension", tension)}
-        checked = {name: None if value is None else real(place, name, value) for name, value in given.items()}
-        waves = count(place, "half_waves", half_waves)
-        self._solve({**checked, "half_waves": waves, "gravity": real(place, "gravity", gravity)})
+        self._solve(locals())
 
+    @described()
     def at(self, x: ArrayLike) -> RopePoints:
         """Return points of the rope by their distance along the axis.
 
-        Parameters
-        ----------
-        x : array_like
-            Distances from an end along the axis, 0 to `span`, any shape.
+        x: Distances from an end along the axis, 0 to `span`, any shape
 
-        Returns
-        -------
-        RopePoints
-            Arrays with the shape of `x`.
-
-        Examples
-        --------
-        >>> import revchain as rc
         >>> rope = rc.SkippingRope(span=2.0, sag=0.5)
         >>> rope.at([0.0, 0.5, 1.0]).offset.round(6)
         array([0.      , 0.359451, 0.5     ])
         """
-        return RopePoints(*numbers(self._found().at(floats("revchain.SkippingRope.at", "x", x))))
+        return RopePoints(*self._at("at", "x", x))
 
+    @described()
     def at_arc(self, arc: ArrayLike) -> RopePoints:
         """Return points of the rope by their distance along the rope.
 
-        Parameters
-        ----------
-        arc : array_like
-            Distances from an end along the rope, 0 to `length`, any shape.
+        arc: Distances from an end along the rope, 0 to `length`, any shape.
 
-        Returns
-        -------
-        RopePoints
-            Arrays with the shape of `arc`.
-
-        Examples
-        --------
-        >>> import revchain as rc
         >>> rope = rc.SkippingRope(span=2.0, sag=0.5)
         >>> round(float(rope.at_arc(rope.length / 2).offset), 12)
         0.5
         """
-        return RopePoints(*numbers(self._found().at_arc(floats("revchain.SkippingRope.at_arc", "arc", arc))))
+        return RopePoints(*self._at("at_arc", "arc", arc))
 
+    @described()
     def drawn_to(self, span: float) -> SkippingRope:
         """Return the rope with another span but equal length and angular momentum.
 
-        Parameters
-        ----------
-        span : float
-            The new span, positive, less than the length. The rope must have a speed (`has_speed`).
+        span: The new span, positive, less than the length. The rope must have a speed (`has_speed`).
+        returns: The new rope. The work of drawing it there is the gain in ``moment_of_inertia * angular_speed**2 / 2``.
 
-        Returns
-        -------
-        SkippingRope
-            The new rope. The work of drawing it there is the gain in ``moment_of_inertia * angular_speed**2 / 2``.
-
-        Examples
-        --------
-        >>> import revchain as rc
         >>> rope = rc.SkippingRope(span=2.0, length=3.0, angular_speed=12.0)
         >>> round(rope.drawn_to(2.5).angular_speed, 4)
         20.9459
@@ -201,24 +148,11 @@ class SkippingRope(Solved):
         kept["span"] = real("revchain.SkippingRope.drawn_to", "span", span)
         return SkippingRope(**kept, angular_speed=momentum / SkippingRope(**kept).moment_of_inertia)
 
+    @described()
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the rope seen from the side; needs matplotlib.
 
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw in; a new figure if left out.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The drawing.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> ax = rc.SkippingRope(span=2.0, length=3.0).plot()
-        >>> ax.get_xlabel()
+        >>> rc.SkippingRope(span=2.0, length=3.0).plot().get_xlabel()
         'along the axis (m)'
         """
         from ..plots.closed_forms import plot_skipping_rope
@@ -236,34 +170,20 @@ class SkippingRope(Solved):
         return f"{self.half_waves} half wave{'s' * (self.half_waves != 1)}"
 
 
+@described(
+    "1e-14 relative; for the angle, 1e-14 of its size plus 1", "section 5, text after (6)",
+    "2 microseconds, and 1 for each point",
+)
 class TortuousRope(Solved):
     """A rope that whirls and winds round the axis without gravity; its ends are off the axis.
 
-    Parameters
-    ----------
-    least_radius, greatest_radius : float
-        Smallest and largest distance from the axis; the largest must be positive. A smallest distance of 0 gives the
-        plane rope, two equal distances a helix.
-    angular_speed : float
-        Turning speed, rad/s, positive.
-    tension : float
-        Component of the tension along the axis, positive.
-    gravity : float, optional
-        Acceleration of gravity; it only relates weight to mass; standard gravity in m/s^2 if left out.
+    The angle is an elliptic integral of the third kind.
 
-    Raises
-    ------
-    ValueError
-        If a number is out of its range.
+    least_radius: Smallest distance of the rope from the axis; 0 gives the plane rope, `greatest_radius` a helix.
+    tension: Component of the tension along the axis, as the length of rope of equal weight
+    gravity: Acceleration of gravity, which only relates weight to mass (standard gravity in m/s^2 if left out)
+    raises: If a number is out of its range.
 
-    Notes
-    -----
-    Accuracy: 1e-14 relative; for the angle, 1e-14 of its size plus 1. Cost: 2 microseconds, and 1 for each place. The
-    angle is an elliptic integral of the third kind. Source: Greenhill (1908), section 5, text after (6).
-
-    Examples
-    --------
-    >>> import revchain as rc
     >>> rope = rc.TortuousRope(least_radius=0.5, greatest_radius=1.0, angular_speed=5.0, tension=2.0)
     >>> round(rope.half_wave, 6), round(rope.half_wave_angle, 6)
     (2.494443, 3.335154)
@@ -287,54 +207,28 @@ class TortuousRope(Solved):
         self, *, least_radius: float, greatest_radius: float, angular_speed: float, tension: float,
         gravity: float = STANDARD_GRAVITY,
     ) -> None:
-        radii = {"least_radius": least_radius, "greatest_radius": greatest_radius}
-        place = "revchain.TortuousRope"
-        pull = as_length(place, "tension", tension)
-        self._solve(reals(place, **radii, angular_speed=angular_speed, tension=pull, gravity=gravity))
+        self._solve(locals())
 
+    @described()
     def at(self, x: ArrayLike) -> TortuousPoints:
         """Return points of the rope by their distance along the axis.
 
-        Parameters
-        ----------
-        x : array_like
-            Distances along the axis from a point nearest to the axis, positive or negative, finite, any shape.
+        x: Distances along the axis from a point nearest to the axis, positive or negative, finite, any shape
 
-        Returns
-        -------
-        TortuousPoints
-            Arrays with the shape of `x`.
-
-        Examples
-        --------
-        >>> import revchain as rc
         >>> rope = rc.TortuousRope(least_radius=0.5, greatest_radius=1.0, angular_speed=5.0, tension=2.0)
         >>> rope.at([0.0, rope.half_wave / 2]).radius.round(12)
         array([0.5, 1. ])
         """
-        return TortuousPoints(*numbers(self._found().at(floats("revchain.TortuousRope.at", "x", x))))
+        return TortuousPoints(*self._at("at", "x", x))
 
+    @described()
     def plot(self, ax: Axes | None = None, *, half_waves: float = 4.0) -> Axes:
         """Draw the rope seen along the axis, with the circles of its smallest and largest distance; needs matplotlib.
 
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw in; a new figure if left out.
-        half_waves : float
-            Number of half waves to draw, from a point nearest to the axis; positive and finite.
+        half_waves: Number of half waves to draw, from a point nearest to the axis; positive and finite
 
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The drawing.
-
-        Examples
-        --------
-        >>> import revchain as rc
         >>> rope = rc.TortuousRope(least_radius=0.5, greatest_radius=1.0, angular_speed=5.0, tension=2.0)
-        >>> ax = rope.plot()
-        >>> ax.get_xlabel()
+        >>> rope.plot().get_xlabel()
         'x (m)'
         """
         from ..plots.closed_forms import plot_tortuous_rope

@@ -13,6 +13,7 @@ from ..results.base import Field, Result
 from ..results.sheet import Column, Sheet, speed_columns
 from ..systems.numbers import STANDARD_GRAVITY, Floats, floats, one_positive, positive, real, reals
 from . import conical_pendulum
+from .table import described
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,7 +32,7 @@ class TransverseModes(Result):
     """
 
     __slots__ = ()
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.")
     angular_speed: Field[Floats] = Field(
         "Natural angular frequency, rad/s, shape (n,).",
         lambda m: conical_pendulum.angular_speed(m.conical_height, m.gravity),
@@ -44,12 +45,11 @@ class TransverseModes(Result):
         "Period of one oscillation, s, shape (n,).",
         lambda m: conical_pendulum.period(m.conical_height, m.gravity),
     )
-    conical_height: Field[Floats] = Field("Conical height of a pendulum of that period, m, shape (n,).", part=True)
-    error_bound: Field[Floats] = Field("Bound of the relative error of each conical height, shape (n,).", part=True)
+    conical_height: Field[Floats] = Field("Conical height of a pendulum of that period, m, shape (n,).")
+    error_bound: Field[Floats] = Field("Bound of the relative error of each conical height, shape (n,).")
     shape: Field[Floats] = Field(
         "Offsets of the first support, the weights and the last support, shape (n, n + 2). The largest is 1; the offset "
         "of the first weight is positive.",
-        part=True,
     )
 
     def _sheet(self, brief: bool = False) -> Sheet:
@@ -80,63 +80,39 @@ class FunicularPolygon(Result):
     """
 
     __slots__ = ()
-    weight: Field[Floats] = Field("The weights from the first support to the last, shape (n,).", part=True)
-    place: Field[Floats] = Field("Places of supports and weights along the horizontal, shape (n + 2,).", part=True)
-    height: Field[Floats] = Field("Heights of supports and weights, shape (n + 2,).", part=True)
+    weight: Field[Floats] = Field("The weights from the first support to the last, shape (n,).")
+    place: Field[Floats] = Field("Places of supports and weights along the horizontal, shape (n + 2,).")
+    height: Field[Floats] = Field("Heights of supports and weights, shape (n + 2,).")
     rise: Field[Floats] = Field(
-        "Vertical component of the tension of each side, shape (n + 1,). In the force diagram the ray of a side runs from "
-        "the pole to ``(horizontal_tension, rise)`` on the load line.",
-        part=True,
+        "Vertical component of the tension of each side, shape (n + 1,). In the force diagram the ray of a side runs "
+        "from the pole to ``(horizontal_tension, rise)`` on the load line.",
     )
-    tension: Field[Floats] = Field("Tension of each side, shape (n + 1,).", part=True)
+    tension: Field[Floats] = Field("Tension of each side, shape (n + 1,).")
     horizontal_tension: Field[float] = Field(
-        "Horizontal component of the tension, equal in all sides: the distance of the pole from the load line.", part=True
+        "Horizontal component of the tension, equal in all sides: the distance of the pole from the load line.",
     )
 
+    @described()
     def transverse_modes(self, *, gravity: float = STANDARD_GRAVITY) -> TransverseModes:
         """Return the small oscillations of the weights perpendicular to the plane of the polygon.
 
-        Parameters
-        ----------
-        gravity : float, optional
-            Acceleration of gravity, as in `transverse_modes`.
+        returns: Result of `transverse_modes` for the weights, positions and horizontal tension of the polygon.
+        notes: The weights are moved vertically to a horizontal thread of uniform tension, Greenhill (1908), section
+            3. This is exact for small oscillations: a side of length a and tension T has the transverse stiffness
+            T/a, which equals the horizontal tension divided by the horizontal length.
 
-        Returns
-        -------
-        TransverseModes
-            Result of `transverse_modes` for the weights, places and horizontal tension of the polygon.
-
-        Notes
-        -----
-        The weights are moved vertically to a horizontal thread of uniform tension, Greenhill (1908), section 3. This is
-        exact for small oscillations: a side of length a and tension T has the transverse stiffness T/a, which equals the
-        horizontal tension divided by the horizontal length.
-
-        Examples
-        --------
-        >>> import revchain as rc
         >>> line = rc.funicular_polygon([1.0, 1.0], [0.0, 1.0, 2.0, 3.0], horizontal_tension=0.5)
         >>> line.transverse_modes().conical_height.round(6)
         array([2.      , 0.666667])
         """
         return transverse_modes(self.weight, self.place, self.horizontal_tension, gravity=gravity)
 
+    @described()
     def plot(self, axes: tuple[Axes, Axes] | None = None) -> tuple[Axes, Axes]:
         """Draw the polygon and its force diagram side by side, sides and rays in the same colours; needs matplotlib.
 
-        Parameters
-        ----------
-        axes : pair of matplotlib.axes.Axes, optional
-            Axes to draw in; a new figure if left out.
+        returns: Axes of the polygon (with the weights also moved to a horizontal line) and of the force diagram.
 
-        Returns
-        -------
-        pair of matplotlib.axes.Axes
-            Axes of the polygon (with the weights also moved to a horizontal line) and of the force diagram.
-
-        Examples
-        --------
-        >>> import revchain as rc
         >>> line = rc.funicular_polygon([1.0, 1.0], [0.0, 1.0, 2.0, 3.0], horizontal_tension=0.5)
         >>> polygon, forces = line.plot()
         >>> polygon.get_title()
@@ -161,40 +137,22 @@ class FunicularPolygon(Result):
         return Sheet("point", heading, columns, {"horizontal_tension": pull})
 
 
+@described(
+    "half an ulp of the heights, plus 1e-28 of the drop below the chord", "section 3",
+    "O(n); 40 microseconds for 1000 weights",
+)
 def funicular_polygon(
     weight: ArrayLike, place: ArrayLike, horizontal_tension: float, *, first_height: float = 0.0,
     last_height: float = 0.0,
 ) -> FunicularPolygon:
     """Return the funicular polygon of weights on a thread between two supports.
 
-    Parameters
-    ----------
-    weight : array_like, shape (n,)
-        Weights, positive.
-    place : array_like, shape (n + 2,)
-        Horizontal places of the first support, the weights and the last support, increasing.
-    horizontal_tension : float
-        Horizontal component of the tension, in the unit of the weights, positive.
-    first_height, last_height : float
-        Heights of the supports.
+    weight: The n weights from the first support to the last
+    place: The n + 2 horizontal positions of the first support, the weights and the last support, increasing.
+    horizontal_tension: Horizontal component of the tension, in the unit of the weights, positive.
+    returns: Heights and tensions of the thread.
+    raises: If a number is out of its range, or there are not two more positions than weights.
 
-    Returns
-    -------
-    FunicularPolygon
-        The polygon. Accuracy of the heights: half an ulp plus 1e-28 of the drop below the chord.
-
-    Raises
-    ------
-    ValueError
-        If a number is out of its range, or there are not two more places than weights.
-
-    Notes
-    -----
-    Cost: O(n); 40 microseconds for 1000 weights. Source: Greenhill (1908), section 3.
-
-    Examples
-    --------
-    >>> import revchain as rc
     >>> rc.funicular_polygon([1.0, 1.0], [0.0, 1.0, 2.0, 3.0], horizontal_tension=0.5).height
     array([ 0., -2., -2.,  0.])
     """
@@ -204,41 +162,21 @@ def funicular_polygon(
     return FunicularPolygon._made(_core.funicular_polygon(weights, at, **given), weight=weights.copy())
 
 
+@described("2 ulp of the conical heights", "section 3", "O(n**2); 14 ms for 1000 weights")
 def transverse_modes(
     weight: ArrayLike, place: ArrayLike, tension: float, *, gravity: float = STANDARD_GRAVITY
 ) -> TransverseModes:
     """Return the small transverse oscillations of a string of weights held at both ends.
 
-    Parameters
-    ----------
-    weight : array_like, shape (n,)
-        Weights, positive.
-    place : array_like, shape (n + 2,)
-        Places of the first support, the weights and the last support along the string, increasing.
-    tension : float
-        Tension of the string, uniform, in the unit of the weights, positive.
-    gravity : float, optional
-        Acceleration of gravity, which relates weights to masses; positive; standard gravity in m/s^2 if left out.
+    weight: The n weights from the first support to the last
+    place: The n + 2 positions of the first support, the weights and the last support along the string, increasing.
+    tension: Tension of the string, uniform, in the unit of the weights
+    gravity: Acceleration of gravity, which relates weights to masses (standard gravity in m/s^2 if left out)
+    returns: All n modes.
+    raises: If a number is out of its range, or there are not two more positions than weights.
+    notes: Method: the modes of a hanging chain with these weights and spacings, stretched by a very great weight.
 
-    Returns
-    -------
-    TransverseModes
-        All n modes; conical heights to 2 ulp.
-
-    Raises
-    ------
-    ValueError
-        If a number is out of its range, or there are not two more places than weights.
-
-    Notes
-    -----
-    Method: the modes of a hanging chain with these weights and spacings, stretched by a very great weight. Cost:
-    O(n**2); 14 ms for 1000 weights. Source: Greenhill (1908), section 3.
-
-    Examples
-    --------
-    >>> import revchain as rc
-    >>> rc.transverse_modes([1.0, 1.0], [0.0, 1.0, 2.0, 3.0], tension=0.5).shape.round(6)
+    >>> rc.transverse_modes([1.0, 1.0], [0.0, 1.0, 2.0, 3.0], tension=5.0).shape.round(6)
     array([[ 0.,  1.,  1.,  0.],
            [ 0.,  1., -1.,  0.]])
     """

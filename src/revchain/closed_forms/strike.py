@@ -66,7 +66,8 @@ class _Pair:
         """Moment of the side of the bell on a clapper that rests on it; positive towards larger angles."""
         turn, (theta, _, spin, _) = self.together(angle, state), state
         inertia = self.clapper_inertia + self.coupling * math.cos(angle)
-        return float(inertia * turn + self.coupling * math.sin(angle) * spin**2 + self.clapper_moment * math.sin(theta + angle))
+        weight = self.clapper_moment * math.sin(theta + angle)
+        return float(inertia * turn + self.coupling * math.sin(angle) * spin**2 + weight)
 
     def balance(self, angle: float) -> float:
         """Angle of the bell, mouth up, at which both as one body are in balance."""

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from ..results.shapes import Shape, SteadyShape, SteadyShapes
+from ..results.shapes import SteadyShape, SteadyShapes
 from ..systems.chain import Chain
 from ..systems.numbers import STANDARD_GRAVITY, Floats, one_positive, shown
 from ..systems.rig import Rig
@@ -119,7 +119,7 @@ class State:
 def mechanism(place: str, given: Any, gravity: float | None) -> tuple[Mechanism, list[State]]:
     """The bodies of a system, or of the system of shapes, and its states: at rest, or the shapes."""
     shapes: list[Any] | None = (
-        [given] if isinstance(given, Shape) else list(given) if isinstance(given, SteadyShapes) else None
+        [given] if isinstance(given, SteadyShape) else list(given) if isinstance(given, SteadyShapes) else None
     )
     system = given if shapes is None else given.system
     if not isinstance(system, Chain | Rig):

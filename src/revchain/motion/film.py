@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A film: where every pin is drawn in every frame. Every format is written from one."""
+"""A film: the position of every pin in every frame. Every format is written from one."""
 
 from __future__ import annotations
 
@@ -26,15 +26,14 @@ class Figure:
     phase: Floats  # shape (F,), angle by which that frame has turned, rad
     speed: Floats  # shape (1 or F,), angular speed of that frame, rad/s
     captions: tuple[str, ...]  # 1 or F
-    tension: Floats | None = None  # of shapes of chains: of each link, held at both ends at each pin
 
     @property
     def is_rigid(self) -> bool:
-        """Whether it only turns, at a constant speed."""
+        """Whether the figure only turns, at a constant speed."""
         return len(self.offset) == 1
 
     def in_space(self, frame: int) -> Complex:
-        """Offsets as seen from outside."""
+        """Offsets of the pins in one frame, in a frame of reference that does not turn."""
         row: Complex = self.offset[0 if self.is_rigid else frame]
         turned: Complex = row * np.exp(1j * self.phase[frame])
         return turned
@@ -63,7 +62,7 @@ class Bodies:
 
 @dataclass(frozen=True)
 class Chart:
-    """A curve for each figure, and the place on it in each frame."""
+    """A curve for each figure, and the point on it in each frame."""
 
     x_label: str
     y_label: str
@@ -73,7 +72,7 @@ class Chart:
 
     @property
     def is_logarithmic(self) -> bool:
-        """Whether peaks would hide the rest."""
+        """Whether peaks would hide the rest of the curve on a linear axis."""
         every = np.concatenate([y for _, y in self.lines])
         return bool((every > 0).all() and every.max() > 20 * np.median(every))
 
@@ -93,12 +92,12 @@ class Film:
     shows_pins: bool = False
     is_held: bool = False  # at both ends
     chart: Chart | None = None
-    clock: tuple[str, ...] = ("",)  # 1 or F
+    progress: tuple[str, ...] = ()  # the time, or how far along the branch, in each frame; empty if all only turn
     note: str = ""
 
     @property
     def frames(self) -> int:
-        """How many."""
+        """The number of frames."""
         return int(self.figures[0].phase.size)
 
     @property
@@ -108,95 +107,92 @@ class Film:
 
     @property
     def seconds(self) -> float:
-        """How long it runs."""
+        """The length of the film in seconds."""
         return self.frames / self.frames_per_second
 
     @property
     def reach(self) -> float:
-        """Largest distance from the axis."""
+        """Largest distance of a pin from the axis, in metres."""
         return max(float(np.abs(figure.offset).max()) for figure in self.figures)
 
     @property
     def low_and_high(self) -> tuple[float, float]:
-        """Least and greatest height."""
+        """Least and greatest height of a pin, in metres."""
         heights = [figure.height for figure in self.figures]
         return min(float(each.min()) for each in heights), max(float(each.max()) for each in heights)
 
     def widths(self, least: float = 0.0) -> Floats:
-        """Room for each figure, m; for none less than `least`."""
+        """Width of the space for each figure, in metres and at least `least`."""
         low, high = self.low_and_high
         reach = np.array([float(np.abs(figure.offset).max()) for figure in self.figures])
         return np.asarray(np.maximum(2 * GAP * np.maximum(reach, 0.1 * (high - low)), least))
 
     @property
     def colours(self) -> tuple[int, ...]:
-        """Of each figure, its number in the cycle of ten; by the direction where there are both."""
+        """The number of each figure's colour in the cycle of ten; by direction of rotation if there are both."""
         ways = [float(np.sign(figure.speed[0])) for figure in self.figures]
         return tuple((0 if way > 0 else 3) if len(set(ways)) > 1 else nth % 10 for nth, way in enumerate(ways))
 
     @property
     def words(self) -> str:
-        """Gravity, and how much slower or faster than the motion the film is."""
+        """Gravity, and how much slower or faster than the motion the film runs."""
         pull = f"gravity {self.gravity:.6g} m/s²" if self.gravity else "without gravity"
         return f"{pull}; {pace(self.time_scale)}" + f"; {self.note}" * bool(self.note)
 
     def thinned(self, frames: int, pins: int) -> Film:
-        """At most so many frames and pins, the ends kept; bodies go with the pins of their links."""
-        rows = spread(self.frames, frames)  # all but equally far apart
-        kept = spread(self.figures[0].offset.shape[1], pins)
-        if rows.size == self.frames and kept.size == self.figures[0].offset.shape[1]:
+        """The film with at most so many frames and pins, first and last included; bodies need all pins."""
+        rows = _spread(self.frames, frames)
+        pin = _spread(self.figures[0].offset.shape[1], pins)
+        has_all_pins = pin.size == self.figures[0].offset.shape[1]
+        if rows.size == self.frames and has_all_pins:
             return self
 
         def few(values: Any) -> Any:
-            return values if len(values) == 1 else values[rows]
+            if len(values) <= 1:
+                return values
+            return tuple(values[row] for row in rows) if isinstance(values, tuple) else values[rows]
 
         figures = tuple(
             replace(
                 each,
-                offset=few(each.offset)[:, kept],
-                height=few(each.height)[:, kept],
+                offset=few(each.offset)[:, pin],
+                height=few(each.height)[:, pin],
                 scale=few(each.scale),
                 phase=each.phase[rows],
                 speed=few(each.speed),
-                captions=_few(each.captions, rows),
-                tension=None,
+                captions=few(each.captions),
             )
             for each in self.figures
         )
         chart = self.chart
         if chart is not None:
             chart = replace(chart, x=tuple(x[rows] for x in chart.x), y=tuple(y[rows] for y in chart.y))
-        same = kept.size == self.figures[0].offset.shape[1]
         return replace(
             self,
             figures=figures,
             chart=chart,
-            clock=_few(self.clock, rows),
-            bodies=self.bodies if same else Bodies(),
-            shows_pins=self.shows_pins and same,
-            names=self.names if same else (),
-            stout=self.stout[kept[:-1]],
+            progress=few(self.progress),
+            bodies=self.bodies if has_all_pins else Bodies(),
+            shows_pins=self.shows_pins and has_all_pins,
+            names=self.names if has_all_pins else (),
+            stout=self.stout[pin[:-1]],
             frames_per_second=(rows.size - 1) / (self.frames - 1) * self.frames_per_second,
         )
 
 
 def side_by_side(widths: Floats) -> Floats:
-    """Where the axes are, the first at 0."""
+    """Positions of the axes, the first at 0."""
     middles = np.cumsum(widths) - widths / 2
     return np.asarray(middles - middles[0])
 
 
-def _few(texts: tuple[str, ...], rows: Whole) -> tuple[str, ...]:
-    return texts if len(texts) == 1 else tuple(texts[row] for row in rows)
-
-
-def spread(count: int, most: int) -> Whole:
-    """Places from first to last, at most so many."""
+def _spread(count: int, most: int) -> Whole:
+    """At most so many evenly spaced indices, from the first to the last of `count`."""
     return np.arange(count) if count <= most else np.linspace(0, count - 1, most).round().astype(int)
 
 
 def pace(time_scale: float) -> str:
-    """The time scale in words."""
+    """How much slower or faster than real time a film runs, in words."""
     if time_scale == 1:
         return "in real time"
     slower = time_scale < 1

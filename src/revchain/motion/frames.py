@@ -42,7 +42,9 @@ class Drawing:
         drawn = (per * widths.sum(), per * 1.1 * size)
         lines = 1 + max(caption.count("\n") for figure in film.figures for caption in figure.captions)
         head, foot = 0.62, 0.35 + 0.16 * lines
-        written = max(BOLD * len(film.system), LETTER * (len(film.words) + len(film.clock[-1]) + 2))
+        progress = () if film.chart is not None else film.progress  # captions have the speeds of a chart
+        longest = max(map(len, progress), default=0)
+        written = max(BOLD * len(film.system), LETTER * (len(film.words) + longest + 2))
         whole = np.array([max(drawn[0] + chart, LEAST, min(written, WIDE)), max(drawn[1], 1.5) + head + foot])
         whole = 2 * np.round(50 * whole) / 100  # an even number of pixels, which H.264 needs
         figure = require("matplotlib.figure", "animate", "animation").Figure(figsize=whole, dpi=100)
@@ -58,8 +60,8 @@ class Drawing:
         figure.text(0.012, 1 - 0.08 / whole[1], plain(film.system), va="top", fontsize=9, weight="bold")
         words = plain(film.words)
         clock = figure.text(0.012, 1 - 0.3 / whole[1], words, va="top", fontsize=9)
-        if len(film.clock) > 1:
-            self._move(clock, lambda frame: clock.set_text(f"{words}; {film.clock[frame]}"))
+        if progress:
+            self._move(clock, lambda frame: clock.set_text(f"{words}; {progress[frame].lower()}"))
         for nth, each in enumerate(film.figures):
             self._stage(each, nth, low, high, deep)
         if chart:

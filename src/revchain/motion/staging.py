@@ -11,21 +11,15 @@ from typing import Any
 
 import numpy as np
 
-from ..plots.branches import BY_WEIGHT, HELD_QUANTITIES, QUANTITIES
+from ..plots.branches import words_of
 from ..plots.modes import MOST_SHAPES, Straight, floating, rows_of
 from ..plots.style import MOST_PINS_AS_DOTS, thinned
 from ..results.branches import Branch, Branches
-from ..results.cord_motions import CordSwing
-from ..results.held_branches import HeldBranch, HeldBranches
 from ..results.modes import Modes
-from ..results.motions import Response, Swing, WhirlSwing
-from ..results.shapes import Shape, SteadyShapes
+from ..results.motions import Response, Swing
+from ..results.shapes import SteadyShape, SteadyShapes
 from ..results.sheet import digits
-from ..systems.chain import Chain
-from ..systems.cord import Cord
-from ..systems.held import Held
 from ..systems.numbers import Floats, listed, place_of
-from ..systems.rig import Rig
 from .film import Bodies, Chart, Complex, Figure, Film
 
 TURN = 2 * math.pi
@@ -39,7 +33,7 @@ Turning = tuple[str, Any, Floats, float, float]  # label, offsets, heights, spee
 
 @dataclass(frozen=True)
 class Asked:
-    """What the caller said of a film."""
+    """The caller's choices for a film."""
 
     place: str
     figures: Iterable[int] | None
@@ -48,12 +42,12 @@ class Asked:
     frames_per_second: float
 
     def only_one(self) -> None:
-        """Refuse a choice where there is none."""
+        """Refuse a choice of figures where the result is a single one."""
         if self.figures is not None:
             raise ValueError(f"{self.place}: figures is for several modes, shapes or branches; leave it out here")
 
     def among(self, count: int, what: str) -> list[int]:
-        """Places of those chosen in a list."""
+        """Indices of the chosen items of a list."""
         if not count:
             raise ValueError(f"{self.place}: there is no {what} to draw")
         if self.figures is None:
@@ -64,7 +58,7 @@ class Asked:
         return chosen
 
     def frames(self, seconds: float) -> int:
-        """How many there are."""
+        """The number of frames in a film of this length."""
         if seconds * self.frames_per_second > MOST_FRAMES:
             raise ValueError(
                 f"{self.place}: duration times frames_per_second must be at most {MOST_FRAMES}, "
@@ -99,7 +93,7 @@ def _(modes: Modes, asked: Asked) -> Film:
 
 
 @staged.register
-def _(shape: Shape, asked: Asked) -> Film:
+def _(shape: SteadyShape, asked: Asked) -> Film:
     asked.only_one()
     return _of_shapes([shape], shape, [""], asked)
 
@@ -112,31 +106,24 @@ def _(shapes: SteadyShapes, asked: Asked) -> Film:
 
 def _of_shapes(shapes: Sequence[Any], of: Any, labels: list[str], asked: Asked) -> Film:
     named: list[Turning] = []
-    tensions = []
     for shape, label in zip(shapes, labels, strict=True):
         waves = f"{shape.half_waves} half wave{'s' * (shape.half_waves != 1)}"
         offset, height = _bent(shape)
-        speed = shape.angular_speed * getattr(shape, "direction", 1)
+        speed = shape.angular_speed * shape.direction
         named.append((f"{label}\n{waves}".strip(), offset, height, speed, 1.0))
-        tensions.append(None if hasattr(shape, "arc_length") else shape.tension)
-    return _turning(of, named, asked, tensions)
+    return _turning(of, named, asked)
 
 
 def _bent(shape: Any) -> tuple[Floats, Floats]:
     """Offsets and heights of pins, or of places of a cord equally far apart."""
     if not hasattr(shape, "arc_length"):
         return shape.offset, shape.height
-    places = shape.at(np.linspace(0.0, shape.system.length, PLACES))
+    places = shape.along(np.linspace(0.0, shape.system.length, PLACES))
     return places.offset, places.height
 
 
-def _turning(
-    result: Any,
-    named: list[Turning],
-    asked: Asked,
-    tensions: Sequence[Floats | None] | None = None,
-) -> Film:
-    """Figures that only turn."""
+def _turning(result: Any, named: list[Turning], asked: Asked) -> Film:
+    """The film of figures that only turn."""
     period = np.array([TURN / abs(speed) for *_, speed, _ in named if speed])
     slow, fast = (float(period.max()), float(period.min())) if period.size else (SLOWEST_TURN, SLOWEST_TURN)
     scale = asked.time_scale or min(slow / SLOWEST_TURN, fast / FASTEST_TURN)
@@ -155,44 +142,41 @@ def _turning(
             np.asarray(speed * time),
             np.array([speed]),
             (f"{label}\n{speed_words(speed)}",),
-            None if tensions is None else tensions[nth],
         )
-        for nth, (label, offset, height, speed, larger) in enumerate(named)
+        for label, offset, height, speed, larger in named
     ]
     return _film(result, figures, asked, scale)
 
 
 def speed_words(speed: float) -> str:
-    """In both units."""
+    """A speed in rad/s and in rpm."""
     return f"{digits(speed, 4)} rad/s\n{digits(speed * 30 / np.pi, 4)} rpm"
 
 
 # ---- what changes along a branch, or with the speed
 
 
-@staged.register(Branch)
-@staged.register(HeldBranch)
-def _(branch: Any, asked: Asked) -> Film:
+@staged.register
+def _(branch: Branch, asked: Asked) -> Film:
     asked.only_one()
     return _of_branches([branch], branch, [""], asked)
 
 
-@staged.register(Branches)
-@staged.register(HeldBranches)
-def _(branches: Any, asked: Asked) -> Film:
+@staged.register
+def _(branches: Branches, asked: Asked) -> Film:
     places = asked.among(len(branches), "branch")
     return _of_branches([branches[k] for k in places], branches, [f"branch {k}" for k in places], asked)
 
 
 def _of_branches(branches: Sequence[Any], of: Any, labels: list[str], asked: Asked) -> Film:
-    quantity = "largest_offset" if isinstance(branches[0], HeldBranch) else "tip_radius"
+    quantity = "tip_radius" if hasattr(branches[0], "tip_radius") else "largest_offset"
     stages = []
     curves = []
     for branch in branches:
         kept = _stages(len(branch), branch.folds)
         rows = [_bent(shape) if (shape := _shape_or_none(branch, k)) is not None else None for k in kept.tolist()]
         straight = Straight(branch.system).height if None in rows else np.empty(0)
-        if None in rows and isinstance(branch.system, Cord):
+        if None in rows and branch.system._is_cord:
             straight = np.linspace(straight[0], straight[-1], PLACES)
         rows = [(np.zeros_like(straight), straight) if row is None else row for row in rows]
         offset, height = (np.array(part) for part in zip(*rows, strict=True))
@@ -200,22 +184,20 @@ def _of_branches(branches: Sequence[Any], of: Any, labels: list[str], asked: Ask
         moved = np.hypot(np.diff(offset, axis=0), np.diff(height, axis=0)).max(axis=1) / np.ptp(height, axis=1).max()
         steps = moved + np.abs(np.diff(speed)) / speed.max()
         way = np.concatenate([[0.0], np.cumsum(steps)])
-        stages.append(_Stages(way, offset + 0j, height, speed * getattr(branch, "direction", 1), np.ones(speed.size)))
+        stages.append(_Stages(way, offset + 0j, height, speed * branch.direction, np.ones(speed.size)))
         curves.append(getattr(branch, quantity)[kept])
-    words = QUANTITIES | HELD_QUANTITIES
-    if not branches[0].system.by_mass:
-        words = words | BY_WEIGHT
-    return _swept(of, labels, stages, asked, ("speed (rad/s)", words[quantity]), curves)
+    words = words_of(quantity, branches[0].system.by_mass)
+    return _swept(of, labels, stages, asked, words, curves, "Along branch")
 
 
 def _stages(count: int, folds: Any) -> Any:
-    """Points of a branch that are asked for: its ends, its folds, and others evenly."""
+    """Indices of the points of a branch that are drawn: its ends, its folds, and others evenly spaced."""
     even = np.linspace(0, count - 1, min(count, MOST_STAGES)).round().astype(int)
     return np.unique(np.concatenate([even, np.asarray(folds, int)]))
 
 
 def _shape_or_none(branch: Any, point: int) -> Any:
-    """The shape at a point of a branch; None where it is straight."""
+    """The shape at a point of a branch, or None where the chain is straight."""
     try:
         return branch.shape(point)
     except ValueError:
@@ -241,13 +223,12 @@ def _(found: Response, asked: Asked) -> Film:
         return _turning(found, [(label, offset[0], height, float(speed[0]), float(scale[0]))], asked)
     rows = np.broadcast_to(height, offset.shape)
     stages = _Stages(np.arange(speed.size, dtype=float), offset * scale[:, None] + 0j, rows, speed, scale)
-    axes = ("speed (rad/s)", "largest distance from axis (m)")
-    return _swept(found, ["carried round"], [stages], asked, axes, [most])
+    return _swept(found, ["carried round"], [stages], asked, "largest distance from axis (m)", [most], "Speed")
 
 
 @dataclass(frozen=True)
 class _Stages:
-    """Shapes through which a figure goes, as drawn, by how far along the way they are."""
+    """Shapes through which a figure goes, as drawn, each with its distance along the way."""
 
     way: Floats
     offset: Complex
@@ -257,7 +238,13 @@ class _Stages:
 
 
 def _swept(
-    result: Any, labels: list[str], stages: list[_Stages], asked: Asked, axes: tuple[str, str], curves: list[Floats]
+    result: Any,
+    labels: list[str],
+    stages: list[_Stages],
+    asked: Asked,
+    quantity: str,
+    curves: list[Floats],
+    progress: str,
 ) -> Film:
     """Figures that go through stages, all from their first to their last, turning as fast as each stage does."""
     frames = asked.frames(FOR_A_SWEEP if asked.duration is None else asked.duration)
@@ -281,11 +268,15 @@ def _swept(
         lines.append((way * each.speed[kept], curve[kept]))
         x.append(way * speed)
         y.append(np.interp(at, each.way, curve))
-    return _film(result, figures, asked, time_scale, Chart(*axes, tuple(lines), tuple(x), tuple(y)))
+    said = [f"{progress}es: {percent:.0f} %" for percent in np.linspace(0.0, 100.0, frames)]
+    if len(figures) == 1:
+        said = [f"{progress}: {digits(now, 3)} rad/s" for now in x[0].tolist()]
+    chart = Chart("speed (rad/s)", quantity, tuple(lines), tuple(x), tuple(y))
+    return _film(result, figures, asked, time_scale, chart, said)
 
 
 def _between(at: Floats, way: Floats, rows: Any) -> Any:
-    """Rows between rows."""
+    """Rows interpolated between those of the stages."""
     after = np.clip(np.searchsorted(way, at, side="right"), 1, max(way.size - 1, 1))
     if way.size == 1:
         return np.repeat(rows, at.size, axis=0)
@@ -297,28 +288,19 @@ def _between(at: Floats, way: Floats, rows: Any) -> Any:
 # ---- what swings
 
 
-@staged.register(Swing)
-@staged.register(CordSwing)
-def _(found: Any, asked: Asked) -> Film:
+@staged.register
+def _(found: Swing, asked: Asked) -> Film:
     def at(time: Floats) -> Complex:
-        angle = np.outer(time, found.angular_frequency)
-        return np.asarray((np.cos(angle) * found.cosine + np.sin(angle) * found.sine) @ found.shape + 0j)
+        whole = (np.exp(1j * np.outer(time, found.angular_frequency)) * found.amplitude) @ found.shape
+        return np.asarray(whole if found.offset.dtype.kind == "c" else whole.real, np.complex128)
 
-    cord = isinstance(found, CordSwing)
+    cord = found.arc_length is not None
     height = found.arc_length - found.system.length if cord else Straight(found.system).height
     return _swung(found, asked, at, height)
 
 
-@staged.register
-def _(found: WhirlSwing, asked: Asked) -> Film:
-    def at(time: Floats) -> Complex:
-        return np.asarray((np.exp(1j * np.outer(time, found.angular_speed)) * found.amplitude) @ found.shape)
-
-    return _swung(found, asked, at, Straight(found.system).height)
-
-
 def _swung(found: Any, asked: Asked, at: Callable[[Floats], Complex], height: Floats) -> Film:
-    """From the first to the last of the times asked, as the sum of the modes."""
+    """The film from the first to the last time of a swing, as the sum of its modes."""
     asked.only_one()
     first, last = float(found.time.min(initial=np.inf)), float(found.time.max(initial=-np.inf))
     if not first < last:
@@ -335,14 +317,14 @@ def _swung(found: Any, asked: Asked, at: Callable[[Floats], Complex], height: Fl
     captions = ("true to scale" if scale == 1 else f"offsets {scale:.3g}:1",)
     still = np.zeros(frames)
     figure = Figure("swing", scale * offset, height[None], np.full(frames, scale), still, np.zeros(1), captions)
-    return _film(found, [figure], asked, time_scale, clock=tuple(f"t = {now:.3f} s" for now in time.tolist()))
+    return _film(found, [figure], asked, time_scale, progress=[f"Time: {now:.3f} s" for now in time.tolist()])
 
 
 # ---- what all films have
 
 
 def _reach_of_small(height: Floats, count: int) -> float:
-    """How far offsets of small amplitude are drawn, beside so many others."""
+    """The distance from the axis at which offsets of small amplitude are drawn, for so many figures side by side."""
     return float(np.ptp(height)) * min(0.25, 0.9 / (count + 1))
 
 
@@ -352,42 +334,41 @@ def _film(
     asked: Asked,
     time_scale: float,
     chart: Chart | None = None,
-    clock: tuple[str, ...] = ("",),
+    progress: Sequence[str] = (),
 ) -> Film:
     system = result.system
-    base = Straight(system).base
-    few = isinstance(base, Chain) and base.size <= MOST_PINS_AS_DOTS
-    links = figures[0].offset.shape[1] - 1
+    base = system._base
+    few = not system._is_cord and base.size <= MOST_PINS_AS_DOTS
     names: tuple[str, ...] = ()
-    if isinstance(base, Chain):
+    if not system._is_cord:
         names = tuple(f"links[{k}]" for k in range(base.size))
         if base.names is not None:
             names = tuple(f"{number} {name}" for number, name in zip(names, base.names, strict=True))
-    gravity = 0.0 if isinstance(system, Held) and system.weightless else float(result.gravity)
+    gravity = 0.0 if system._is_held and system.weightless else float(result.gravity)
     return Film(
         system=repr(system),
         gravity=gravity,
         figures=tuple(figures),
-        bodies=_bodies(system, base) if few or isinstance(base, Cord) else Bodies(),
+        bodies=_bodies(system, base) if few or system._is_cord else Bodies(),
         frames_per_second=asked.frames_per_second,
         time_scale=time_scale,
         names=names,
-        stout=system.inverted if isinstance(system, Rig) else np.zeros(links, bool),
+        stout=np.broadcast_to(system._stands, figures[0].offset.shape[1] - 1),
         shows_pins=few,
-        is_held=isinstance(system, Held),
+        is_held=system._is_held,
         chart=chart,
-        clock=clock,
+        progress=tuple(progress),
     )
 
 
 def _bodies(system: Any, base: Any) -> Bodies:
-    if isinstance(base, Cord):
+    if system._is_cord:
         if not base._compiled.tip_weight:
             return Bodies()
         one = np.ones(1)
         return Bodies(np.zeros(1, int), one, one, np.zeros(1), np.zeros(1), np.zeros(1, bool))
     weight = np.broadcast_to(base._compiled.weight, base.size)
-    momentum = system._momentum(1.0) if isinstance(system, Rig) else np.zeros(base.size)
+    momentum = system._momentum(1.0)
     link = np.flatnonzero((weight > 0) | (momentum != 0))
     rod = math.sqrt(3) * base.radius_of_gyration / base.length
     arrays = {

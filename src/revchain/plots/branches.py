@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..systems.numbers import Floats, word
+from ..systems.numbers import word
 from .modes import beside_at_rest
 from .style import half_waves_style, legend_outside
 
@@ -17,46 +17,56 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from ..results.branches import Branch
-    from ..results.held_branches import HeldBranch
 
 QUANTITIES = {
-    "tip_inclination": "tip inclination (degrees)",
+    "lowest_inclination": "inclination of the lowest link (degrees)",
     "tip_radius": "tip radius (m)",
-    "top_tension": "tension at the support (N)",
+    "largest_offset": "largest distance from axis (m)",
+    "top_tension": "tension at the upper end (N)",
     "moment_of_inertia": "moment of inertia (kg m^2)",
     "effective_energy": "effective energy (J)",
 }
 BY_WEIGHT = {
-    "top_tension": "tension at the support (unit of the weights)",
+    "top_tension": "tension at the upper end (unit of the weights)",
     "moment_of_inertia": "moment of inertia (weight x length^2)",
     "effective_energy": "effective energy (weight x length)",
 }
 CLOSEST = 0.03  # of the width, between births whose speeds are written out
 
 
-def plot_branches(branches: Sequence[Branch], first: float, ax: Axes | None, *, quantity: str, place: str) -> Axes:
-    """See `Branches.plot`; `first` is the conical height of the slowest mode."""
-    word(place, "quantity", quantity, QUANTITIES)
+def words_of(quantity: str, by_mass: bool) -> str:
+    """The label of a quantity."""
+    return QUANTITIES[quantity] if by_mass else BY_WEIGHT.get(quantity, QUANTITIES[quantity])
+
+
+def plot_branches(branches: Sequence[Branch], ax: Axes | None, *, quantity: str | None, place: str) -> Axes:
+    """See `Branches.plot`."""
+    available = [name for name in QUANTITIES if not len(branches) or hasattr(branches[0], name)]
+    if quantity is None:
+        quantity = "largest_offset" if len(branches) and "tip_radius" not in available else "lowest_inclination"
+    word(place, "quantity", quantity, available)
     ax = beside_at_rest(branches[0].system if len(branches) else None, ax, 7.2, 5.0)
     named: set[int] = set()
     curves: dict[Artist, int] = {}
     births: list[tuple[float, str]] = []
     for branch in branches:
         waves = int(branch.half_waves[0])
-        speed = np.sqrt(first / branch.conical_height)
-        value = _values(branch, quantity)
+        speed, value = branch.angular_speed, getattr(branch, quantity)
+        if quantity.endswith("inclination"):
+            value = np.degrees(value)
         colour, label = half_waves_style(waves, named)
         style = "-" if branch.mode is not None else "--"
         curves[ax.plot(speed, value, style, color=colour, linewidth=1.6, label=label)[0]] = waves
-        if branch.mode is not None:
+        if getattr(branch, "birth", "fold") != "fold":
             ax.plot(speed[0], value[0], "o", color=colour, markersize=5.0)
-        folds = branch.folds
-        _mark_folds(ax, speed[folds], value[folds], colour)
+        folds = branch.folds  # hollow marks, which hide no loop however small
+        ax.plot(speed[folds], value[folds], "D", color=colour, markersize=5.0, markerfacecolor="none", zorder=3)
         if branch.mode is None and folds.size:
-            born = int(folds[np.argmin(speed[folds])])
-            births.append((float(speed[born]), colour))
+            births.append((float(speed[folds].min()), colour))
     _mark_births(ax, births)
-    _label(ax, branches, "speed / first critical speed", QUANTITIES, quantity)
+    ax.set(xlabel="speed (rad/s)", ylabel=words_of(quantity, all(branch.system.by_mass for branch in branches)))
+    ax.grid(color="0.9", linewidth=0.6)
+    ax.set_axisbelow(True)
     if named:
         handles, labels = ax.get_legend_handles_labels()
         order = sorted(range(len(labels)), key=lambda i: curves.get(handles[i], np.inf))  # what was there before: last
@@ -79,48 +89,3 @@ def _mark_births(ax: Axes, births: list[tuple[float, str]]) -> None:
     above = ax.secondary_xaxis("top")
     above.set_xticks(ticks, [f"{at:.5g}" for at in ticks], rotation=90, fontsize="small")
     above.set_xlabel("pairs appear at", fontsize="small")
-
-
-def _values(branch: Branch | HeldBranch, quantity: str) -> Floats:
-    """The numbers to draw: inclinations in degrees."""
-    values: Floats = getattr(branch, quantity)
-    return np.degrees(values) if quantity.endswith("inclination") else values
-
-
-def _mark_folds(ax: Axes, speed: Floats, value: Floats, colour: str) -> None:
-    """Hollow marks, which hide no loop however small."""
-    ax.plot(speed, value, "D", color=colour, markersize=5.0, markerfacecolor="none", zorder=3)
-
-
-def _label(
-    ax: Axes, branches: Sequence[Branch] | Sequence[HeldBranch], speed: str, quantities: dict[str, str], quantity: str
-) -> None:
-    by_mass = all(branch.system.by_mass for branch in branches)
-    label = quantities[quantity] if by_mass else BY_WEIGHT.get(quantity, quantities[quantity])
-    ax.set(xlabel=speed, ylabel=label)
-    ax.grid(color="0.9", linewidth=0.6)
-    ax.set_axisbelow(True)
-
-
-HELD_QUANTITIES = {
-    "largest_offset": "largest distance from axis (m)",
-    "lowest_inclination": "lowest link from the upward vertical (degrees)",
-    "top_tension": "tension at the upper end (N)",
-    "moment_of_inertia": "moment of inertia (kg m^2)",
-}
-
-
-def plot_held_branches(branches: Sequence[HeldBranch], ax: Axes | None, *, quantity: str, place: str) -> Axes:
-    """See `HeldBranches.plot`."""
-    word(place, "quantity", quantity, HELD_QUANTITIES)
-    ax = beside_at_rest(branches[0].system if len(branches) else None, ax, 7.2, 5.0)
-    named: set[int] = set()
-    for branch in branches:
-        value = _values(branch, quantity)
-        colour, label = half_waves_style(branch.mode, named)
-        ax.plot(branch.angular_speed, value, color=colour, linewidth=1.6, label=label)
-        _mark_folds(ax, branch.angular_speed[branch.folds], value[branch.folds], colour)
-    _label(ax, branches, "speed (rad/s)", HELD_QUANTITIES, quantity)
-    if named:
-        legend_outside(ax)
-    return ax

@@ -13,11 +13,7 @@ from numpy.typing import NDArray
 
 from ..results.motions import Response
 from ..results.sheet import digits
-from ..systems.chain import Chain
-from ..systems.cord import Cord
-from ..systems.held import Held
 from ..systems.numbers import integer, listed, shown
-from ..systems.rig import Rig
 from .style import MOST_PINS_AS_DOTS, MOST_POINTS, WIDEST, axes_or_new, new_figure, plain, thinned
 
 if TYPE_CHECKING:
@@ -25,6 +21,7 @@ if TYPE_CHECKING:
 
     from ..results.modes import Modes
     from ..systems.numbers import Floats, Whole
+    from ..systems.rig import Support
     from ..systems.system import System
 
 FORWARD, BACKWARD, LINK, FLUID = "C0", "C3", "0.35", "#e4f1f9"
@@ -45,36 +42,33 @@ class Straight:
     """A system as it hangs straight: the places of its pins along the axis, and what the axis is called."""
 
     def __init__(self, system: System) -> None:
-        base = system.system if isinstance(system, Held) else system.chain if isinstance(system, Rig) else system
-        self.system, self.base = system, base
-        self.inverted = system.inverted if isinstance(system, Rig) else np.zeros(max(len_of(base), 1), bool)
-        self.upwards = isinstance(system, Held) or bool(self.inverted.all())
-        if isinstance(base, Cord):
+        self.system, self.base = system, system._base
+        base, self.inverted = self.base, system._stands
+        self.upwards = system._is_held or bool(self.inverted.all())
+        if system._is_cord:
             level = np.linspace(base.length, 0.0, 201)
         else:
-            assert isinstance(base, Chain)
             steps = base.length * np.where(self.inverted, -1.0, 1.0) * (-1.0 if self.inverted.all() else 1.0)
             level = np.concatenate([np.cumsum(steps[::-1])[::-1], [0.0]])
-        self.level: Floats = level[0] - level if isinstance(system, Held) else level
-        self.few = isinstance(base, Chain) and base.size <= MOST_PINS_AS_DOTS
+        self.level: Floats = level[0] - level if system._is_held else level
+        self.few = not system._is_cord and base.size <= MOST_PINS_AS_DOTS
 
     @property
     def said(self) -> str:
         """What to write under the system at rest."""
-        fluid = f"\nin {self.system.fluid} fluid" if isinstance(self.system, Rig) and self.system._floats else ""
-        arm = "\narm not\nto scale" if isinstance(self.system, Rig) and self.system.support.radius else ""
+        fluid = f"\nin {self.system._fluid} fluid" if self.system._fluid else ""
+        arm = "\narm not\nto scale" if self.system._support is not None and self.system._support.radius else ""
         return f"at rest{fluid}{arm}"
 
     def names(self) -> list[str]:
         """Of the links, in short lines; none where they are many."""
-        names = self.base.names if isinstance(self.base, Chain) else None
+        names = getattr(self.base, "names", None)
         few = names is not None and len(names) <= MOST_NAMES and self.few
         return [plain(textwrap.fill(name, NAME_WIDTH)) for name in names or ()] if few else []
 
     def beside(self) -> Floats:
         """Half the width of each link: of its flywheel."""
-        spun = isinstance(self.system, Rig) and self.system._momentum(1.0)
-        return np.where(np.broadcast_to(spun, len_of(self.base)), WHEEL, 0.0)
+        return np.where(self.system._momentum(1.0) != 0, WHEEL, 0.0)
 
     def reach(self) -> float:
         """To where the names reach, where columns are as wide as they are by default."""
@@ -88,7 +82,7 @@ class Straight:
 
     def finish(self, ax: Axes, bodies: bool = True) -> None:
         low, high = float(self.level.min()), float(self.level.max())
-        if bodies and self.few and isinstance(self.base, Chain):
+        if bodies and self.few:
             middle, reach = self._middles(), math.sqrt(3) * self.base.radius_of_gyration
             low, high = min(low, float((middle - reach).min())), max(high, float((middle + reach).max()))
         margin = 0.04 * (high - low)
@@ -96,7 +90,7 @@ class Straight:
         ax.set_ylim(*(ends if self.upwards else ends[::-1]))
         what = "depth below the support"
         if self.upwards:
-            what = "height above the " + ("lower end" if isinstance(self.system, Held) else "support")
+            what = "height above the " + ("lower end" if self.system._is_held else "support")
         ax.set_ylabel(f"{what} (m)")
         for side in ("top", "right"):
             ax.spines[side].set_visible(False)
@@ -107,12 +101,12 @@ class Straight:
 
     def supports(self, ax: Axes, at: float) -> None:
         ax.plot(at, self.level[-1], marker="^" if self.inverted.all() else "v", **SUPPORT)
-        if isinstance(self.system, Held):
+        if self.system._is_held:
             ax.plot(at, self.level[0], marker="^", **SUPPORT)
 
     def links(self, ax: Axes, across: Floats, colour: str, label: str | None = None) -> None:
         """The links, inverted ones drawn stout."""
-        kept = thinned(across)
+        kept = thinned(across) if across.size > MOST_POINTS else slice(None)
         marker = "o" if self.few else ""
         line: dict[str, Any] = {"color": colour, "linewidth": 1.6, "marker": marker, "markersize": 4.0, "zorder": 2}
         ax.plot(across[kept], self.level[kept], label=label, **line)
@@ -125,9 +119,9 @@ class Straight:
 
     def at_rest(self, ax: Axes) -> None:
         """The straight system: bodies as heavy as they are, wheels seen edge-on, and what holds it."""
-        if isinstance(self.base, Cord):
+        if self.system._is_cord:
             density = self.base.density
-            where = (self.level[0] - self.level) if not isinstance(self.system, Held) else self.level
+            where = (self.level[0] - self.level) if not self.system._is_held else self.level
             thick = np.ones(201)
             if isinstance(density, float) and density:
                 thick = np.maximum(where / self.base.length, 1e-9) ** density
@@ -142,16 +136,16 @@ class Straight:
         across = self._folded(ax)
         if self.few:
             self._bodies(ax, across)
-        elif isinstance(self.system, Rig) and self.system.has_momentum:
+        elif self.system.has_momentum:
             ax.axvspan(-0.5, 0.5, color=FORWARD, alpha=0.12)
-        if isinstance(self.system, Rig):
-            _draw_support(self.system, ax, self.level, float(across[-1]))
+        if self.system._support is not None:
+            _draw_support(self.system._support, ax, self, float(across[-1]))
         else:
             self.supports(ax, 0.0)
 
     def _folded(self, ax: Axes) -> Floats:
         """Draw the line of the chain, beside itself where it turns back; the places of the links are returned."""
-        stands, level, size = self.inverted, self.level, len_of(self.base)
+        stands, level, size = self.inverted, self.level, self.base.size
         turns = np.flatnonzero(stands[1:] != stands[:-1]) + 1
         first, end = np.concatenate([[0], turns]), np.concatenate([turns, [size]])
         places = min(FOLD, 1.0 / first.size) * np.arange(first.size)[::-1]
@@ -163,14 +157,12 @@ class Straight:
 
     def _middles(self) -> Floats:
         """Centres of gravity."""
-        assert isinstance(self.base, Chain)
         along = (self.level[:-1] - self.level[1:]) / self.base.length  # +1 or -1
         middle: Floats = self.level[1:] + along * self.base.centroid
         return middle
 
     def _bodies(self, ax: Axes, across: Floats) -> None:
         chain, level, system = self.base, self.level, self.system
-        assert isinstance(chain, Chain)
         weight = np.broadcast_to(chain._compiled.weight, chain.size)
         middle = self._middles()
         heavy, floats = weight > 0, floating(system)
@@ -181,11 +173,9 @@ class Straight:
         size = 20 + 60 * np.sqrt(weight / weight.max())
         ax.scatter(across[heavy], middle[heavy], s=size[heavy], c=face[heavy], edgecolors=LINK, zorder=3)
         ax.plot(across, level[1:], "o", color="white", markeredgecolor=LINK, markersize=4.0, zorder=4)
-        if isinstance(system, Rig):
-            momentum = system._momentum(1.0)
-            for sign, colour in ((1, FORWARD), (-1, BACKWARD)):
-                spun = np.flatnonzero(np.sign(momentum) == sign)
-                ax.hlines(middle[spun], across[spun] - WHEEL, across[spun] + WHEEL, color=colour, linewidth=4.0, zorder=3)
+        for sign, colour in ((1, FORWARD), (-1, BACKWARD)):
+            spun = np.flatnonzero(np.sign(system._momentum(1.0)) == sign)
+            ax.hlines(middle[spun], across[spun] - WHEEL, across[spun] + WHEEL, color=colour, linewidth=4.0, zorder=3)
         for x, z, name, far in zip(across, middle, self.names(), self.beside(), strict=False):
             side = -1 if x < across.max() else 1  # to the left where links stand on the right
             place: dict[str, Any] = {"ha": "left" if side > 0 else "right", "va": "center", "fontsize": "small"}
@@ -194,16 +184,10 @@ class Straight:
 
 def floating(system: System) -> NDArray[np.bool_]:
     """Of each link: whether the fluid bears more than it weighs."""
-    base: Any = Straight(system).base
-    weight = np.broadcast_to(base._compiled.weight, base.size)
-    if not isinstance(system, Rig) or system.displaced is None:
+    base, displaced = system._base, getattr(system, "displaced", None)
+    if displaced is None:
         return np.zeros(base.size, bool)
-    return np.broadcast_to(next(iter(system.displaced._given.values())), base.size) > weight
-
-
-def len_of(system: Any) -> int:
-    """Number of links; 0 of a cord."""
-    return system.size if isinstance(system, Chain | Rig) else 0
+    return np.broadcast_to(next(iter(displaced._given.values())), base.size) > np.broadcast_to(base._compiled.weight, base.size)
 
 
 def plot_system(system: System, ax: Axes | None) -> Axes:
@@ -216,9 +200,9 @@ def plot_system(system: System, ax: Axes | None) -> Axes:
     if straight.few:
         ax.set_xlabel("dots: centres of gravity (larger = heavier);\nrings: pins; bars: rods of equal inertia", fontsize="small")
     ax.set_xticks([])
-    if isinstance(system, Rig) and system._floats:
+    if system._fluid:
         ax.set_facecolor(FLUID)
-        ax.set_title(f"in {system.fluid} fluid", fontsize="small")
+        ax.set_title(f"in {system._fluid} fluid", fontsize="small")
     return ax
 
 
@@ -258,20 +242,19 @@ def rows_of(place: str, modes: Modes, which: Iterable[int] | None) -> Whole:
 
 
 def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, carried: Response | None = None) -> Axes:
-    """See `Modes.plot` and `RigModes.plot`."""
+    """See `Modes.plot`."""
     place = f"revchain.{type(modes).__name__}.plot"
     system = modes.system
-    rigged = isinstance(system, Rig)
     if carried is not None and not isinstance(carried, Response):
         raise TypeError(f"{place}: carried must be a revchain.Response, got {shown(carried)}")
     if carried is not None and (carried.system != system or carried.offset.shape != (system.size + 1,)):
         raise ValueError(f"{place}: carried must be the response of the same rig at one speed, of every pin")
-    rows = np.arange(0) if rigged and not len(modes) and which is None else rows_of(place, modes, which)
+    rows = np.arange(0) if system._kind == "rig" and not len(modes) and which is None else rows_of(place, modes, which)
     straight = Straight(system)
     labels = [straight.said]
     if carried is not None:
         labels.append(_speed_label("carried round", float(carried.angular_speed)))
-    before, turning = len(labels), getattr(modes, "has_momentum", False)
+    before, turning = len(labels), modes.has_momentum
     for row in rows:
         way = ("\nforward" if modes.angular_speed[row] > 0 else "\nbackward") if turning else ""
         labels.append(_speed_label(f"mode {modes.number[row]}{way}", float(modes.angular_speed[row])))
@@ -279,7 +262,7 @@ def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, carri
     aside = max(0.0, straight.reach() + 1.1 - SPACING)  # so that the names do not reach the first shape
     ax = axes_or_new(ax, _width(labels, columns), 6.0)
     straight.at_rest(ax)
-    ticks = [0.0, *(aside + SPACING * nth for nth in range(1, len(labels)))]
+    ticks = [0.0, *[aside + SPACING * nth for nth in range(1, len(labels))]]
     if carried is not None:
         most = np.abs(carried.offset).max()  # nothing is drawn of a resonance: NaN
         straight.axis(ax, ticks[1])
@@ -288,7 +271,7 @@ def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, carri
     for row, at in zip(rows, ticks[before:], strict=True):
         _draw_mode(ax, modes, straight, int(row), at)
     if not len(rows):
-        rate = digits(modes.other.growth_rate.max(initial=0.0), 4)  # type: ignore[attr-defined]
+        rate = digits(modes.other.growth_rate.max(initial=0.0), 4)
         said = f"no steady\nmotion:\ngrows as\nexp({rate} t),\nt in s"
         ax.text(ticks[-1] + SPACING, float(straight.level.mean()), said, ha="center", va="center")
     ax.set_xticks(ticks, labels, fontsize="small")
@@ -297,36 +280,36 @@ def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, carri
     if len(rows) or carried is not None:
         turn = "\n" if columns < 4 else " "
         ax.set_xlabel(f"offset from the axis, each mode to its own scale;{turn}rings mark the nodes", fontsize="small")
-    if rigged and system._floats:
+    if system._fluid:
         ax.set_facecolor(FLUID)
     return ax
 
 
 def _width(labels: list[str], columns: int) -> float:
     """Inches of a figure whose labels do not meet: no more than `WIDEST` where these are short."""
-    longest = max(len(line) for label in labels for line in label.splitlines())
+    longest = max([len(line) for label in labels for line in label.splitlines()])
     return max(min(1.2 + COLUMN * columns, WIDEST), 0.9 + LETTER * (longest + 1) * columns)
 
 
 def _speed_label(name: str, speed: float) -> str:
-    lines = [name, f"{digits(speed, 4)} rad/s", f"{digits(speed * 30 / np.pi, 4)} rpm", f"{digits(2 * np.pi / abs(speed), 4)} s"]
-    return "\n".join(lines)
+    units = {"rad/s": speed, "rpm": speed * 30 / np.pi, "s": 2 * np.pi / abs(speed)}
+    return "\n".join([name, *[f"{number:#.4g}".removesuffix(".") + f" {unit}" for unit, number in units.items()]])
 
 
 def _draw_mode(ax: Axes, modes: Modes, straight: Straight, row: int, axis: float) -> None:
     shape, system = modes.shape[row], straight.system
     shape = shape / np.abs(shape).max()  # that of a cord with a tip may be largest anywhere
     colour = f"C{(int(modes.number[row]) - 1) % 10}"
-    if isinstance(system, Rig) and getattr(modes, "has_momentum", False):
+    if modes.has_momentum:
         colour = FORWARD if modes.angular_speed[row] > 0 else BACKWARD
     straight.axis(ax, axis)
     straight.links(ax, axis + shape, colour, f"mode {modes.number[row]}")
     nodes = modes.nodes[row]
     if nodes.size <= MOST_PINS_AS_DOTS and not straight.inverted.any():
-        places = nodes if isinstance(system, Held) else straight.level[0] - nodes
+        places = nodes if system._is_held else straight.level[0] - nodes
         rings: dict[str, Any] = {"markersize": 7.0, "markerfacecolor": "white", "markeredgecolor": "black", "zorder": 3}
         ax.plot(np.full(nodes.size, axis), places, linestyle="none", marker="o", **rings)
-    if isinstance(system, Rig) and np.isfinite(system.support.stiffness):
+    if system._support is not None and np.isfinite(system._support.stiffness):
         ax.plot([axis, axis + shape[-1]], [0.0, 0.0], color="0.3", linewidth=1.0, zorder=3)
         ax.plot(axis + shape[-1], 0.0, marker="s", **{**SUPPORT, "markersize": 6.0})
     else:
@@ -351,11 +334,12 @@ def plot_carried(found: Response, ax: Axes | None, pins: list[int]) -> Axes:
     return ax
 
 
-def _draw_support(rig: Rig, ax: Axes, level: Floats, across: float) -> None:
+def _draw_support(support: Support, ax: Axes, straight: Straight, across: float) -> None:
     """What holds the uppermost pin: a firm point, a spring, an arm."""
-    yields = bool(np.isfinite(rig.support.stiffness))
-    wall = -0.65 if rig.support.radius and yields else -1.0  # the spring starts where the arm ends
-    if rig.support.radius:
+    level = straight.level
+    yields = bool(np.isfinite(support.stiffness))
+    wall = -0.65 if support.radius and yields else -1.0  # the spring starts where the arm ends
+    if support.radius:
         ax.plot([-1.0, -1.0], [level.max(), level.min()], color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
         ax.plot([-1.0, wall if yields else across], [0.0, 0.0], **ARM)
     if yields:
@@ -364,6 +348,6 @@ def _draw_support(rig: Rig, ax: Axes, level: Floats, across: float) -> None:
         zigzag = np.concatenate([[0.0, 0.0], np.tile([1.0, -1.0], 5)[:9], [0.0, 0.0]])
         ax.plot(x, 0.012 * tall * zigzag, color=LINK, linewidth=1.0, clip_on=False)
         ax.plot([wall, wall], [-0.03 * tall, 0.03 * tall], color="black", linewidth=2.5, zorder=4, clip_on=False)
-        ax.plot(0.0, 0.0, marker="s", **{**SUPPORT, "markersize": 8.0 if rig.support.carriage else 4.0})
+        ax.plot(0.0, 0.0, marker="s", **{**SUPPORT, "markersize": 8.0 if support.carriage else 4.0})
     else:
-        ax.plot(across, 0.0, marker="^" if rig.inverted.all() else "v", **SUPPORT)
+        ax.plot(across, 0.0, marker="^" if straight.inverted.all() else "v", **SUPPORT)

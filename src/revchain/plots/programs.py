@@ -58,7 +58,7 @@ def side_view(axes: Axes, title: str, *, bottom: float, top: float = 0.05, half_
 def branch_of(shape: SteadyShape, branches: Iterable[Branch]) -> int:
     """Number of the branch on which a shape lies: the one with the nearest point."""
     apart = [
-        np.hypot(branch.angular_speed / shape.angular_speed - 1, branch.tip_inclination - shape.inclination[0]).min()
+        np.hypot(branch.angular_speed / shape.angular_speed - 1, branch.lowest_inclination - shape.inclination[0]).min()
         for branch in branches
     ]
     return int(np.argmin(apart))

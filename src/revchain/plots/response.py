@@ -9,14 +9,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..systems.numbers import Floats, integer, listed, word
-from .modes import beside_at_rest, plot_carried
+from .modes import Straight, beside_at_rest, plot_carried
 from .style import MOST_PINS_AS_DOTS, legend_outside, thinned
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from ..results.cord_motions import CordSwing
-    from ..results.motions import Response, Swing, WhirlSwing
+    from ..results.motions import Response, Swing
 
 MOST_CURVES = 4  # of pins, unless asked
 MOST_MOMENTS = 9  # in a picture of shapes
@@ -84,24 +83,20 @@ def _known(pins: Iterable[int], available: list[int]) -> list[int]:
     return numbers
 
 
-def plot_swing(found: Swing, ax: Axes | None, kind: str, pins: Iterable[int]) -> Axes:
+def plot_swing(found: Swing, ax: Axes | None, kind: str | None, pins: Iterable[int]) -> Axes:
     """See `Swing.plot`."""
-    chain: Any = getattr(found.system, "chain", found.system)
-    lengths = chain.length
-    depth = np.concatenate([np.cumsum(lengths[::-1])[::-1], [0.0]])
-    return _swing("Swing.plot", found, ax, kind, "pin", pins, depth)
+    place, system, cord = "Swing.plot", found.system, found.arc_length is not None
+    if found.offset.dtype.kind == "c":
+        word(place, "kind", "path" if kind is None else kind, ("path", "time"))
+        return _plot_turning(found, ax, "path" if kind is None else kind, _pins_of(place, "pins", pins, found.offset.shape[1]))
+    word(place, "kind", "shapes" if kind is None else kind, ("shapes", "time"))
+    depth = system.length - found.arc_length if cord else Straight(system).level
+    chosen = _pins_of(place, "pins", pins, depth.size)
+    return _plot_plane(found, ax, "shapes" if kind is None else kind, chosen, depth)
 
 
-def plot_cord_swing(found: CordSwing, ax: Axes | None, kind: str, places: Iterable[int]) -> Axes:
-    """See `CordSwing.plot`."""
-    return _swing("CordSwing.plot", found, ax, kind, "place", places, found.system.length - found.arc_length)
-
-
-def plot_whirl_swing(found: WhirlSwing, ax: Axes | None, kind: str, pins: Iterable[int]) -> Axes:
-    """See `WhirlSwing.plot`."""
-    place = "WhirlSwing.plot"
-    word(place, "kind", kind, ("path", "time"))
-    chosen = _pins_of(place, "pins", pins, found.offset.shape[1])
+def _plot_turning(found: Swing, ax: Axes | None, kind: str, chosen: list[int]) -> Axes:
+    """Paths of pins seen from above, or their offsets against time."""
     ax = beside_at_rest(found.system, ax, *((7.0, 4.0) if kind == "time" else (5.0, 5.0)))
     order = np.argsort(found.time)
     for number, column in enumerate(chosen):
@@ -133,12 +128,9 @@ def _pins_of(place: str, what: str, which: Iterable[int], count: int) -> list[in
     return chosen
 
 
-def _swing(
-    place: str, found: Swing | CordSwing, ax: Axes | None, kind: str, what: str, which: Iterable[int], depth: Floats
-) -> Axes:
+def _plot_plane(found: Swing, ax: Axes | None, kind: str, chosen: list[int], depth: Floats) -> Axes:
     """Offsets of pins or places, at these depths, at the times asked or against time."""
-    word(place, "kind", kind, ("shapes", "time"))
-    chosen = _pins_of(place, f"{what}s", which, depth.size)
+    what = "pin" if found.arc_length is None else "place"
     ax = beside_at_rest(found.system, ax, *((7.0, 4.0) if kind == "time" else (5.0, 6.0)))
     order = np.argsort(found.time)
     if kind == "time":

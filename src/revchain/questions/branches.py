@@ -1,52 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Branches of steady shapes that start at the critical speeds, and single shapes on them."""
+"""Branches of steady shapes that start at the critical speeds."""
 
 from __future__ import annotations
 
-from typing import Any, Literal, TypedDict, Unpack, overload
+from typing import Any
 
 from .. import _core
-from ..results.bent import CordShape, HeldCordShape, HeldShape
-from ..results.branches import Branch, Branches, branches_made
-from ..results.cord_branches import CordBranch, CordBranches
-from ..results.held_branches import HeldBranch, HeldBranches
-from ..results.shapes import SteadyShape
-from ..systems.chain import Chain, compiled
+from ..results.branches import Branch, Branches, branch_made, branches_made
+from ..systems.chain import Chain
 from ..systems.cord import Cord
 from ..systems.held import Held
-from ..systems.numbers import (
-    STANDARD_GRAVITY,
-    boolean,
-    count,
-    exactly_one,
-    height_of,
-    integer,
-    limit,
-    one_positive,
-    shown,
-)
+from ..systems.numbers import STANDARD_GRAVITY, count, height_of, limit, one_positive
 from ..systems.rig import Rig
 from ..systems.system import System
-from .cords import cord_branch, cord_branches, cord_shapes_on_branch
-from .held import held_branch, held_branches, held_shape
 from .refuse import no_system
+from .shapes import compiled_system, require_span, rotation
+
+LISTS = 16
+"""Number of speeds at which `branches` lists all shapes."""
 
 
-class _Path(TypedDict, total=False):
-    max_angular_speed: float | None
-    min_conical_height: float | None
-    gravity: float
-    direction: int
-    max_points: int
-    max_step: float
-
-
-@overload
-def branch(system: Chain | Rig, mode: int, **path: Unpack[_Path]) -> Branch: ...
-@overload
-def branch(system: Cord, mode: int, **path: Unpack[_Path]) -> CordBranch: ...
-@overload
-def branch(system: Held, mode: int, **path: Unpack[_Path]) -> HeldBranch: ...
 def branch(
     system: Chain | Rig | Cord | Held,
     mode: int,
@@ -57,7 +30,7 @@ def branch(
     direction: int = 1,
     max_points: int = 10_000,
     max_step: float = 0.1,
-) -> Branch | CordBranch | HeldBranch:
+) -> Branch:
     """Return the branch of steady shapes that leaves the vertical at one critical speed, followed through every fold.
 
     Parameters
@@ -87,7 +60,7 @@ def branch(
 
     Returns
     -------
-    Branch, CordBranch or HeldBranch
+    Branch
         The points of the branch, from the critical speed of the mode to the given speed. The first point is the
         straight chain. It is the only one if double precision cannot separate the end from it; ``end`` is then
         ``stuck``. With the support off the axis the branch starts at a tenth of a speed: of the given speed, or of
@@ -125,38 +98,13 @@ def branch(
     ('rest', array([1.0101, 4.9048]))
     """
     place = "revchain.branch"
-    if not isinstance(system, System):
-        raise no_system(place, system)
-    number = count(place, "mode", mode)
-    height = height_of(place, min_conical_height, max_angular_speed, gravity, "min_conical_height", "max_angular_speed")
-    points = count(place, "max_points", max_points)
+    height, g, turns = _checked(place, system, min_conical_height, max_angular_speed, gravity, direction)
+    number, points = count(place, "mode", mode), count(place, "max_points", max_points)
     step = one_positive(place, "max_step", max_step)
-    asked = (number, height, points, step)
-    g, turns = one_positive(place, "gravity", gravity), _direction(place, direction)
-    if isinstance(system, Held):
-        return held_branch(place, system, number, height, g, step)
-    if isinstance(system, Cord):
-        return cord_branch(system, g, asked)
-    found = _core.branch(_system(place, system, g), *asked, g, turns)
-    return Branch._made(found, system=system, gravity=g, direction=turns, asked=asked)
+    found: Any = _core.branch(compiled_system(place, system, g), number, height, points, step, g, turns)
+    return branch_made(found, system, g, turns)
 
 
-class _Diagram(TypedDict, total=False):
-    max_angular_speed: float | None
-    min_conical_height: float | None
-    gravity: float
-    direction: int
-    lists: int
-    budget: int
-    proof_budget: int
-
-
-@overload
-def branches(system: Chain | Rig, **diagram: Unpack[_Diagram]) -> Branches: ...
-@overload
-def branches(system: Cord, **diagram: Unpack[_Diagram]) -> CordBranches: ...
-@overload
-def branches(system: Held, **diagram: Unpack[_Diagram]) -> HeldBranches: ...
 def branches(
     system: Chain | Rig | Cord | Held,
     *,
@@ -164,18 +112,16 @@ def branches(
     min_conical_height: float | None = None,
     gravity: float = STANDARD_GRAVITY,
     direction: int = 1,
-    lists: int = 16,
     budget: int = 3_000_000,
-    proof_budget: int = 1_000_000,
-) -> Branches | CordBranches | HeldBranches:
+) -> Branches:
     """Return all branches of steady shapes up to a speed, including isolated ones, and whether any can be missing.
 
     Parameters
     ----------
     system : Chain, Rig, Cord or Held
         A chain or a rig of few links, because all shapes are listed (`steady_shapes`), for a rig those in its own
-        posture; a cord; or a chain or cord held at a span. For a held system only the branches that start with the nearly
-        straight chain are found, and `lists`, `budget` and `proof_budget` are not used.
+        posture; a cord; or a chain or cord held at a span. For a held system only the branches that start with the
+        nearly straight chain are found.
     max_angular_speed : float
         Largest speed, rad/s.
     min_conical_height : float
@@ -184,20 +130,19 @@ def branches(
         Acceleration of gravity, m/s^2; standard gravity if left out.
     direction : {1, -1}, optional
         Direction of rotation; only a rig with flywheels depends on it.
-    lists : int, optional
-        Number of speeds at which all shapes are listed and matched with the branches.
     budget : int, optional
-        Work allowed for each list; see `steady_shapes`. Not used for cords.
-    proof_budget : int, optional
-        Number of links that the proof may visit, at 0.1 to 1 microsecond each; 0 for no proof. Not used for cords.
+        Largest number of links to visit for the list of all shapes at each of 16 speeds, see `steady_shapes`, and a
+        third of it for the proof that no branch is missing, at 0.1 to 1 microsecond each. Not used for cords and held
+        systems.
 
     Returns
     -------
-    Branches, CordBranches or HeldBranches
-        A sequence of branches. First come those that leave the vertical, slowest first (with the support off the axis the
-        one from rest), then the isolated ones, which start at a fold, slowest first. Those of a held system are ordered by
-        half waves. For a cord ``complete`` is true if a theorem counts the shapes (see `steady_shapes`) and every branch
-        was followed to its end. `HeldBranches` has no ``complete``; `steady_shapes` can prove a list at one speed.
+    Branches
+        A sequence of branches. First come those that leave the vertical, slowest first (with the support off the axis
+        the one from rest), then the isolated ones, which start at a fold, slowest first. Those of a held system are
+        ordered by half waves. For a cord ``complete`` is true if a theorem counts the shapes (see `steady_shapes`) and
+        every branch was followed to its end. Those of held systems have no ``complete``; `steady_shapes` can prove a
+        list at one speed.
 
     Raises
     ------
@@ -211,15 +156,16 @@ def branches(
     A listed shape that matches no branch lies on an isolated branch, which is then followed in both directions.
     ``consistent`` is true if every list is proved complete and each of its shapes matches exactly one branch.
 
-    Loops can open and close between two of the speeds. Interval arithmetic therefore splits the plane of conical height
-    and tangent of the lowest link until each part has no fold, or has all its shapes on one curve through a known branch.
-    Loops found in this way are followed. ``complete`` is true if this succeeds for every part; it is false if links could
-    hang at several inclinations. The proof relies on `branch`, whose steps are checked, not proved.
+    Loops can open and close between two of the speeds. Interval arithmetic therefore splits the plane of conical
+    height and tangent of the lowest link until each part has no fold, or has all its shapes on one curve through a
+    known branch. Loops found in this way are followed. ``complete`` is true if this succeeds for every part; it is
+    false if links could hang at several inclinations. The proof relies on `branch`, whose steps are checked, not
+    proved.
 
-    For rigs (on springs, on an arm, with flywheels, in fluids) the proof needs all links in tension at every speed up to
-    the given one. Below the first critical speed such a rig has exactly one shape if its support is off the axis, and only
-    the straight one if it is on the axis. If stiffness times conical height is less than the weight that moves, a spring
-    at the support cannot balance it, and nothing is proved; ``remark`` gives these heights.
+    For rigs (on springs, on an arm, with flywheels, in fluids) the proof needs all links in tension at every speed up
+    to the given one. Below the first critical speed such a rig has exactly one shape if its support is off the axis,
+    and only the straight one if it is on the axis. If stiffness times conical height is less than the weight that
+    moves, a spring at the support cannot balance it, and nothing is proved; ``remark`` gives these heights.
 
     Cost, measured down to a conical height of 1/200 of the length: three links 4 to 8 ms, five 15 ms, six 30 ms. Eight
     equal plummets on threads of length a, to 5 sqrt(g/a): 0.1 s; twenty rods, 1 m in all, to 20 rad/s: 0.05 s.
@@ -244,174 +190,20 @@ def branches(
     2.2878
     """
     place = "revchain.branches"
+    height, g, turns = _checked(place, system, min_conical_height, max_angular_speed, gravity, direction)
+    most = limit(place, "budget", budget)
+    found: Any = _core.branches(compiled_system(place, system, g), height, LISTS, most, most // 3, g, turns)
+    return branches_made(found, system, g, turns)
+
+
+def _checked(
+    place: str, system: Any, height: float | None, speed: float | None, gravity: float, direction: int
+) -> tuple[float, float, int]:
+    """The lowest conical height, gravity and direction."""
     if not isinstance(system, System):
         raise no_system(place, system)
-    height = height_of(place, min_conical_height, max_angular_speed, gravity, "min_conical_height", "max_angular_speed")
-    at = min(count(place, "lists", lists), 10**6)
-    most, most_of_proof = limit(place, "budget", budget), limit(place, "proof_budget", proof_budget)
-    asked = (height, at, most, most_of_proof)
-    g, turns = one_positive(place, "gravity", gravity), _direction(place, direction)
+    least = height_of(place, height, speed, gravity, "min_conical_height", "max_angular_speed")
+    g, turns = one_positive(place, "gravity", gravity), rotation(place, direction)
     if isinstance(system, Held):
-        return held_branches(place, system, height, g)
-    if isinstance(system, Cord):
-        return cord_branches(system, g, (height, at))
-    found = _core.branches(_system(place, system, g), *asked, g, turns)
-    return branches_made(found, asked, system=system, gravity=g, direction=turns)
-
-
-class _Wanted(TypedDict, total=False):
-    mode: int
-    conical_height: float | None
-    angular_speed: float | None
-    tip_inclination: float | None
-    tip_radius: float | None
-    top_tension: float | None
-    gravity: float
-    direction: int
-    min_conical_height: float | None
-
-
-@overload
-def steady_shape(system: Chain | Rig, *, all: Literal[False] = ..., **wanted: Unpack[_Wanted]) -> SteadyShape: ...
-@overload
-def steady_shape(system: Chain | Rig, *, all: Literal[True], **wanted: Unpack[_Wanted]) -> tuple[SteadyShape, ...]: ...
-@overload
-def steady_shape(system: Cord, *, all: Literal[False] = ..., **wanted: Unpack[_Wanted]) -> CordShape: ...
-@overload
-def steady_shape(system: Cord, *, all: Literal[True], **wanted: Unpack[_Wanted]) -> tuple[CordShape, ...]: ...
-@overload
-def steady_shape(system: Held, *, all: Literal[False] = ..., **wanted: Unpack[_Wanted]) -> HeldShape | HeldCordShape: ...
-def steady_shape(
-    system: Chain | Rig | Cord | Held,
-    *,
-    mode: int = 1,
-    conical_height: float | None = None,
-    angular_speed: float | None = None,
-    tip_inclination: float | None = None,
-    tip_radius: float | None = None,
-    top_tension: float | None = None,
-    gravity: float = STANDARD_GRAVITY,
-    direction: int = 1,
-    all: bool = False,
-    min_conical_height: float | None = None,
-) -> SteadyShape | CordShape | HeldShape | HeldCordShape | tuple[SteadyShape, ...] | tuple[CordShape, ...]:
-    """Return the steady shape on the branch of one mode at a speed, or the one with a given property.
-
-    Parameters
-    ----------
-    system : Chain, Rig, Cord or Held
-        The system: a chain of N links (100,000 and more are possible), a rig, a cord, or a chain or cord held at a span.
-    mode : int, optional
-        Number of the mode at which the branch leaves the vertical, from 1 for the slowest. With the support off the axis
-        it must be 1, the branch from rest; for shapes of other branches use `branches` and `Branch.at`. For a held
-        system it is the number of half waves of the branch at high speed.
-    conical_height : float
-        Conical height of the speed, m, less than that of the mode. Give exactly one of this and the next four.
-    angular_speed : float
-        Speed, rad/s.
-    tip_inclination : float
-        Magnitude of the inclination of the lowest link (of a cord: of its free end), rad: between 0 and pi/2, for an
-        inverted link between pi/2 and pi. The link may lean either way; with the support off the axis it leans
-        outwards.
-    tip_radius : float
-        Distance of the free end from the axis, m, on either side.
-    top_tension : float
-        Tension at the topmost pin (of a held system: at its upper end), greater than the weight that hangs there; in N,
-        or in the unit of the weights.
-    gravity : float, optional
-        Acceleration of gravity, m/s^2; standard gravity if left out.
-    direction : {1, -1}, optional
-        Direction of rotation; only a rig with flywheels depends on it.
-    all : bool, optional
-        True to return all such shapes of the branch as a tuple, which may be empty; False for the first one.
-    min_conical_height : float, optional
-        Conical height at which the search ends, m, less than that of the mode. If left out, it is half the height of the
-        speed (with `all` and a speed), else 1e-6 of that of the mode. Not used for a held system.
-
-    Returns
-    -------
-    SteadyShape, CordShape, HeldShape, HeldCordShape or tuple of them
-        The shape. Inclinations are within ``error_bound``, which is proved except at a fold (measured: 2.3e-16); those of a
-        cord within ``error_estimate``. Each step checks that the shape is on this branch, see `branch`. For a held system
-        and a speed it is the shape reached from the nearly straight chain; for a held system and a top tension it is the
-        fastest shape of the branch with that tension.
-
-    Raises
-    ------
-    ValueError
-        If there is no such mode, if not exactly one number is given or it is out of its range, if `direction` is
-        neither 1 nor -1, if `min_conical_height` is not below the height of the mode, if the branch does not exist yet
-        at that speed, or, unless `all` is true, if no shape of the branch has the property; if a `Held` system is under
-        a tension or has no gravity, or comes with `tip_inclination`, `tip_radius` or ``all=True``.
-    TypeError
-        If `all` is not a bool.
-
-    Notes
-    -----
-    Cost: O(N); 0.4 s for 100,000 rods at twice the first critical speed. Source: Greenhill (1908), section 8 (4), (12).
-
-    Examples
-    --------
-    >>> import revchain as rc
-    >>> chain = rc.Chain.uniform_rods(120, length=0.36)
-    >>> shape = rc.steady_shape(chain, mode=2, angular_speed=20.0)
-    >>> shape.half_waves, round(shape.angular_speed, 9)
-    (2, 20.0)
-    >>> again = rc.steady_shape(chain, mode=2, tip_radius=shape.offset[0])
-    >>> round((9.80665 / again.conical_height) ** 0.5, 9)
-    20.0
-
-    The speed at which a chair of a carousel is 2.5 m from the axis:
-
-    >>> carousel = rc.Rig(rc.Chain(mass=80.0, length=4.0), support=rc.Support(radius=1.0))
-    >>> round(rc.steady_shape(carousel, tip_radius=2.5).angular_speed, 4)
-    1.2597
-    """
-    place = "revchain.steady_shape"
-    if not isinstance(system, System):
-        raise no_system(place, system)
-    number = count(place, "mode", mode)
-    name, value = exactly_one(
-        place,
-        conical_height=conical_height,
-        angular_speed=angular_speed,
-        tip_inclination=tip_inclination,
-        tip_radius=tip_radius,
-        top_tension=top_tension,
-    )
-    g = one_positive(place, "gravity", gravity)
-    turns = _direction(place, direction)
-    if isinstance(system, Held):
-        return held_shape(place, system, number, name, value, g, all)
-    if name == "top_tension":
-        if isinstance(system, (Chain, Cord)) and not value > (least := system._force(g) * _weight(system)):
-            what = "cord" if isinstance(system, Cord) else "chain"
-            raise ValueError(f"{place}: top_tension must be more than the weight {least:.6g} of the {what}, got {value:g}")
-        value /= system._force(g)
-    every = boolean(place, "all", all)
-    lowest = None if min_conical_height is None else one_positive(place, "min_conical_height", min_conical_height)
-    if isinstance(system, Cord):
-        of_cord = cord_shapes_on_branch(system, number, name, value, g, lowest, every)
-        return of_cord if every else of_cord[0]
-    asked = (_system(place, system, g), number, name, value, g, turns, lowest)
-    found = _core.shapes_on_branch(*asked) if every else [_core.steady_shape(*asked)]
-    shapes = tuple(SteadyShape._made(shape, system=system, gravity=g, direction=turns) for shape in found)
-    return shapes if every else shapes[0]
-
-
-def _weight(system: Chain | Cord) -> float:
-    """Weight or mass of the whole system, as given."""
-    if isinstance(system, Cord):
-        return system._compiled.weight + system._compiled.tip_weight
-    return system._compiled.total_weight
-
-
-def _direction(place: str, direction: int) -> int:
-    if integer(place, "direction", direction) not in (1, -1):
-        raise ValueError(f"{place}: direction must be 1 or -1, got {shown(direction)}")
-    return int(direction)
-
-
-def _system(place: str, system: Chain | Rig, gravity: float) -> Any:
-    """The compiled chain or rig."""
-    return system._under(gravity) if isinstance(system, Rig) else compiled(place, system)
+        require_span(place, system)
+    return least, g, turns

@@ -64,8 +64,9 @@ def explain(
     tolerance = 0.0 if rtol is None else real(place, "rtol", rtol)
     if not tolerance >= 0:
         raise ValueError(f"{place}: rtol must not be negative or NaN, got {tolerance}")
-    if isinstance(system, Chain):
-        core = compiled(place, system, link_by_link=False)
+    of: Any = system
+    if getattr(system, "_kind", "") == "chain":
+        core = compiled(place, of, link_by_link=False)
         n = _how_many(place, count, start, core.mode_count)
         rows, chosen, met = _core.select(core, start, n, tolerance, 0.0, None)
         estimates = tuple(
@@ -76,12 +77,12 @@ def explain(
         return Explanation._made(None, estimates=estimates, meets_tolerance=met, rtol=tolerance)
     if not isinstance(system, System):
         raise no_system(place, system)
-    if isinstance(system, Rig):
+    if system._kind == "rig":
         n = min(count_of(place, count, 10) or 2 * system.size, 2 * system.size)
     else:
-        if isinstance(system, Held):
-            straight(place, system, STANDARD_GRAVITY)
-        n = _how_many(place, count, start, getattr(system, "mode_count", None))
+        if system._is_held:
+            straight(place, of, STANDARD_GRAVITY)
+        n = _how_many(place, count, start, system.mode_count)
     return _only(*_method(place, system, start, n), tolerance)
 
 
@@ -99,10 +100,10 @@ def _how_many(place: str, count: Any, first: int, most: int | None) -> int:
 
 def _method(place: str, system: Any, first: int, count: int) -> tuple[str, float, float]:
     """The only method, its error bound as measured, and its time."""
-    if isinstance(system, Rig):
+    if system._kind == "rig":
         spinning = system.has_momentum
         return "rig, by counts or discs", 2.0**-50 if spinning else 2.0**-51, 2.5e-5 + 1e-6 * system.size * count * (1 + spinning)
-    if isinstance(system, Cord) or isinstance(getattr(system, "system", None), Cord):
+    if system._is_cord:
         one = modes(system, 1)
         return one.method, float(one.error_bound[0]), (1e-3 * (first + count) if one.method == "power series" else 1e-5 * count)
     return "bisection", 2.0**-52, 6e-6 * system.size * count

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..results.fitted import Fitted
-from ..results.modes import RigModes
+
 from ..results.sensitivity import rig_derivatives
 from ..systems.chain import Chain
 from ..systems.cord import Cord
@@ -20,6 +20,7 @@ from ..systems.extras import require
 from ..systems.held import Held
 from ..systems.numbers import STANDARD_GRAVITY, Floats, Whole, integer, one_positive, real, shown
 from ..systems.rig import Rig
+from ..systems.system import System
 from ..systems.units import are_there, in_si, unpacked
 from .modes import straight
 from .refuse import no_system
@@ -100,16 +101,17 @@ def fit(
     >>> rc.fit(crane, measured, vary=["links[0].mass", "links[1].mass"]).undetermined
     (('links[0].mass', 'links[1].mass'),)
     """
-    if not isinstance(system, Chain | Rig | Cord | Held):
+    if not isinstance(system, System):
         raise no_system(_PLACE, system)
+    of: Any = system
     g = one_positive(_PLACE, "gravity", gravity)
-    if isinstance(system, Held) and system.span is not None:
+    if system._is_held and of.span is not None:
         raise ValueError(
             f"{_PLACE}: a system held at a span is bent and has no critical speeds; tune with top_tension finds one datum for "
             "a speed and a tension"
         )
-    if isinstance(system, Held):
-        straight(_PLACE, system, g)
+    if system._is_held:
+        straight(_PLACE, of, g)
     paths, starts = _varied(vary)
     number, speed, deviation = _measurements(measured)
     if len(paths) > len(number):
@@ -119,7 +121,7 @@ def fit(
         )
     data = [read(_PLACE, system, path, g) for path in paths]
     refuse_overlap(_PLACE, paths)
-    turns = isinstance(system, Rig) and (system.has_momentum or any("flywheels" in path for path in paths))
+    turns = system.has_momentum or any("flywheels" in path for path in paths)
     if (number < 0).any() and not turns:
         raise ValueError(
             f"{_PLACE}: measured: modes are counted from 1; only a rig with flywheels has backward modes, -1 the slowest, "
@@ -175,9 +177,9 @@ class _Model:
 
     def _rates(self, there: Speeds) -> Any:
         """Derivatives of the speeds by the data of a chain or a rig; None if there are none."""
-        if isinstance(there.modes, RigModes):
+        if there.modes.system._kind == "rig":
             return rig_derivatives(there.modes.system, there.speed, there.modes.shape[there.rows], self.gravity)
-        if not isinstance(self.system, Chain):
+        if self.system._kind != "chain":
             return None
         of_heights: Any = there.modes.sensitivity
         factor = -0.5 * there.speed / there.modes.conical_height[there.rows].astype(np.float64)

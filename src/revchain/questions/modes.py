@@ -3,14 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import Any, Literal, overload
+from collections.abc import Callable, Iterable
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
-from ..results.modes import CordModes, Modes, RigModes
+from ..results.modes import Modes
 from ..systems.chain import Chain, compiled
 from ..systems.cord import Cord
 from ..systems.held import Held
@@ -23,56 +23,6 @@ from .refuse import no_system
 Pair = tuple[float, float]
 
 
-@overload
-def modes(
-    system: Chain,
-    count: int | Literal["all"] | None = ...,
-    *,
-    first: int = ...,
-    conical_height: Pair | None = ...,
-    angular_speed: Pair | None = ...,
-    rtol: float | None = ...,
-    gravity: float = ...,
-    method: str | None = ...,
-    precision: str = ...,
-    certify: bool = ...,
-    threads: int = ...,
-) -> Modes: ...
-@overload
-def modes(
-    system: Rig,
-    count: int | Literal["all"] | None = ...,
-    *,
-    first: int = ...,
-    conical_height: Pair | None = ...,
-    angular_speed: Pair | None = ...,
-    rtol: float | None = ...,
-    gravity: float = ...,
-    certify: bool = ...,
-    threads: int = ...,
-) -> RigModes: ...
-@overload
-def modes(
-    system: Cord,
-    count: int | None = ...,
-    *,
-    first: int = ...,
-    conical_height: Pair | None = ...,
-    angular_speed: Pair | None = ...,
-    rtol: float | None = ...,
-    gravity: float = ...,
-) -> CordModes: ...
-@overload
-def modes(
-    system: Held,
-    count: int | Literal["all"] | None = ...,
-    *,
-    first: int = ...,
-    conical_height: Pair | None = ...,
-    angular_speed: Pair | None = ...,
-    rtol: float | None = ...,
-    gravity: float = ...,
-) -> Modes: ...
 def modes(
     system: Chain | Rig | Cord | Held,
     count: int | Literal["all"] | None = None,
@@ -86,7 +36,7 @@ def modes(
     precision: str = "double",
     certify: bool = False,
     threads: int = 1,
-) -> Modes | RigModes | CordModes:
+) -> Modes:
     """Return the modes of a system: whirl speeds (critical speeds), with shapes, nodes and error bounds.
 
     For a chain hung from a fixed point, the small-amplitude whirl speed equals the natural angular frequency of its
@@ -134,7 +84,7 @@ def modes(
 
     Returns
     -------
-    Modes, RigModes or CordModes
+    Modes
         The modes. ``status`` is ``"tolerance_not_met"`` if `rtol` was not reached; ``error_bound`` is the bound reached.
         An empty window gives no modes.
 
@@ -204,6 +154,34 @@ FULL = 4.4432e-16  # 2 ulp: the bound of full accuracy in double
 METHODS = tuple(name for name in dict.fromkeys((*_core.METHODS[1:], *_core.MODELS)) if name != "finite amplitude")
 _DEFAULTS: dict[str, Any] = {"conical_height": None, "angular_speed": None, "rtol": None, "method": None}
 _DEFAULTS |= {"precision": "double", "certify": False}
+_PLACE = "revchain.modes"
+
+
+class _Asked(NamedTuple):
+    """The checked arguments of `modes`."""
+
+    many: int | str | None
+    first: int
+    heights: Pair | None
+    speeds: Pair | None
+    rtol: float | None
+    gravity: float
+    method: str | None
+    precision: str
+    certify: bool
+    threads: int
+    progress: _core.Progress | None
+
+    @property
+    def speeds_and_gravity(self) -> tuple[float, float, float] | None:
+        return None if self.speeds is None else (*self.speeds, self.gravity)
+
+    def refuse(self, names: str, reason: str) -> None:
+        """Raise a ValueError if one of these options was given."""
+        for name in names.split():
+            value, default = getattr(self, name), _DEFAULTS[name]
+            if value is not default and not (isinstance(value, str) and value == default):
+                raise ValueError(f"{_PLACE}: {name} {reason}, got {shown(value)}")
 
 
 def find_modes(
@@ -220,61 +198,106 @@ def find_modes(
     certify: bool = False,
     threads: int = 1,
     progress: _core.Progress | None = None,
-) -> Modes | RigModes | CordModes:
+) -> Modes:
     """`modes` with `progress`, which another thread can read, and with which it can cancel."""
-    place = "revchain.modes"
-    g = gravity if type(gravity) is float and 0 < gravity < 1e300 else one_positive(place, "gravity", gravity)
-    start = first if type(first) is int and first == 1 else checked_count(place, "first", first)
-    shared = threads if type(threads) is int and threads == 1 else integer(place, "threads", threads)
-    if conical_height is not None or angular_speed is not None:
-        _refuse_two_choices(place, conical_height, angular_speed, count, start)
-    if isinstance(system, Rig):
-        _refuse(place, {"method": method, "precision": precision}, "is for a Chain; a Rig has one method, in double")
+    g = gravity if type(gravity) is float and 0 < gravity < 1e300 else one_positive(_PLACE, "gravity", gravity)
+    start = first if type(first) is int and first == 1 else checked_count(_PLACE, "first", first)
+    shared = threads if type(threads) is int and threads == 1 else integer(_PLACE, "threads", threads)
     heights = window = None
-    if conical_height is not None:
-        heights = _window(place, "conical_height", conical_height)
-    elif angular_speed is not None:
-        window = _window(place, "angular_speed", angular_speed)
+    if conical_height is not None or angular_speed is not None:
+        _refuse_two_choices(conical_height, angular_speed, count, start)
+        if conical_height is not None:
+            heights = _window("conical_height", conical_height)
+        else:
+            window = _window("angular_speed", angular_speed)
     if rtol is not None:
-        rtol = real(place, "rtol", rtol)
+        rtol = real(_PLACE, "rtol", rtol)
     if certify is not False:
-        certify = boolean(place, "certify", certify)
-    if isinstance(system, Rig):
-        many = count_of(place, count, 10)
-        of_rig = _core.rig_modes(system._under(g), start, many, heights, window, rtol, certify, g, progress, shared)
-        found = RigModes._made(of_rig, system=system, gravity=g, rtol=rtol)
-        if start > max(1, *found.available):
-            raise ValueError(f"{place}: first must be from 1 to {max(found.available)}, the number of modes in a direction, got {start}")
-        return found
-    speeds = None if window is None else (*window, g)
-    if not isinstance(system, Chain):
-        asked = {"method": method, "precision": precision, "certify": certify}
-        return _of_cord_or_held(place, system, count, start, heights, speeds, rtol, g, asked, progress)
-    core = compiled(place, system)
+        certify = boolean(_PLACE, "certify", certify)
+    find = _FIND.get(getattr(system, "_kind", ""))
+    if find is None:
+        raise no_system(_PLACE, system)
+    return find(system, _Asked(count, start, heights, window, rtol, g, method, precision, certify, shared, progress))
+
+
+def _of_chain(chain: Chain, asked: _Asked) -> Modes:
+    count, first, heights, _, rtol, g, method, precision, certify, threads, progress = asked
+    core, speeds = compiled(_PLACE, chain), asked.speeds_and_gravity
     wanted: int | None = None
     if heights is None and speeds is None:
-        wanted = how_many(place, count, start, core.mode_count)
+        wanted = how_many(_PLACE, count, first, core.mode_count)
     if precision is not _DOUBLE:
-        checked_word(place, "precision", precision, _core.PRECISIONS, "; float is for C++ alone")
+        checked_word(_PLACE, "precision", precision, _core.PRECISIONS, "; float is for C++ alone")
     if rtol is not None and 0 < rtol <= FULL and method is None and wanted and precision == "double" and not certify:
         method = "double-double"  # no method in double keeps it
     if method is not None and not (isinstance(method, str) and method in _core.METHODS[1:]):
-        checked_word(place, "method", method, METHODS)
+        checked_word(_PLACE, "method", method, METHODS)
         if wanted is None or precision != "double" or certify:
-            raise ValueError(f"{place}: method {method!r} goes with count, first and rtol alone")
+            raise ValueError(f"{_PLACE}: method {method!r} goes with count, first and rtol alone")
         tolerance = FULL / 2 if method == "double-double" and rtol is None else rtol or 0.0
-        of_model = _core.solve_by(core, start, wanted, tolerance, 0.0, method)
-        return _by_model(of_model, system, g, rtol, start)
+        return _by_model(_core.solve_by(core, first, wanted, tolerance, 0.0, method), chain, g, rtol, first)
     way = method or "auto"
-    of_chain = _core.modes(core, start, wanted, heights, speeds, rtol, certify, precision, way, progress, shared)
-    return Modes._made(of_chain, system=system, gravity=g, precision=precision, rtol=rtol)
+    found = _core.modes(core, first, wanted, heights, speeds, rtol, certify, precision, way, progress, threads)
+    return Modes._made(found, system=chain, gravity=g, precision=precision, rtol=rtol)
 
 
-def _refuse_two_choices(place: str, height: Any, speed: Any, count: Any, first: int) -> None:
+def _of_rig(rig: Rig, asked: _Asked) -> Modes:
+    asked.refuse("method precision", "is for a Chain; a Rig has one method, in double")
+    count, first, heights, speeds, rtol, g, _, _, certify, threads, progress = asked
+    many = count_of(_PLACE, count, 10)
+    core = _core.rig_modes(rig._under(g), first, many, heights, speeds, rtol, certify, g, progress, threads)
+    found = Modes._made(core, system=rig, gravity=g, rtol=rtol)
+    if first > (most := max(1, *core.available)):
+        raise ValueError(f"{_PLACE}: first must be from 1 to {most}, the number of modes in a direction, got {first}")
+    return found
+
+
+def _of_cord(cord: Cord, asked: _Asked) -> Modes:
+    asked.refuse("method precision certify", "is for a Chain; the heights of a Cord have closed forms or power series")
+    wanted = _of_infinitely_many(asked)
+    speeds = asked.speeds_and_gravity
+    found = _core.cord_modes(cord._compiled, asked.first, wanted, asked.heights, speeds, asked.rtol, asked.progress)
+    return Modes._made(found, system=cord, gravity=asked.gravity, rtol=asked.rtol)
+
+
+def _of_held_cord(held: Held, asked: _Asked) -> Modes:
+    asked.refuse("method precision certify", "is for a Chain that hangs")
+    core: Any = straight(_PLACE, held, asked.gravity)
+    wanted, g, rtol = _of_infinitely_many(asked), asked.gravity, asked.rtol
+    found = _core.held_modes(
+        core, asked.first, wanted, asked.heights, asked.speeds_and_gravity, rtol, asked.progress, g
+    )
+    return Modes._made(found, system=held, gravity=g, rtol=rtol)
+
+
+def _of_held_chain(held: Held, asked: _Asked) -> Modes:
+    asked.refuse("method precision", "is for a Chain that hangs")
+    count, first, heights, speeds, rtol, g, _, _, certify, _, progress = asked
+    core: Any = straight(_PLACE, held, g)
+    default = max(min(10, (held.mode_count or 0) - first + 1), 1)
+    wanted = None if heights or speeds else count_of(_PLACE, count, default, each=24)
+    found = _core.held_modes(
+        core, first, wanted, heights, asked.speeds_and_gravity, rtol, certify, progress, g
+    )
+    return Modes._made(found, system=held, gravity=g, rtol=rtol)
+
+
+_FIND: dict[str, Callable[[Any, _Asked], Modes]] = {
+    "chain": _of_chain, "rig": _of_rig, "cord": _of_cord, "held chain": _of_held_chain, "held cord": _of_held_cord
+}  # fmt: skip
+
+
+def _of_infinitely_many(asked: _Asked) -> int | None:
+    if asked.many == "all":
+        raise ValueError(f"{_PLACE}: a cord has infinitely many modes; give count, or a window that ends")
+    return None if asked.heights or asked.speeds else count_of(_PLACE, asked.many, 10, each=24)
+
+
+def _refuse_two_choices(height: Any, speed: Any, count: Any, first: int) -> None:
     given = {"conical_height": height is not None, "angular_speed": speed is not None}
     named = [name for name, there in {**given, "count": count is not None, "first": first != 1}.items() if there]
     if len(named) > 1:
-        raise ValueError(f"{place}: give one window, or count and first, not both, got {' and '.join(named)}")
+        raise ValueError(f"{_PLACE}: give one window, or count and first, not both, got {' and '.join(named)}")
 
 
 def _by_model(found: tuple[Any, ...], chain: Chain, gravity: float, rtol: float | None, first: int) -> Modes:
@@ -285,43 +308,6 @@ def _by_model(found: tuple[Any, ...], chain: Chain, gravity: float, rtol: float 
     given |= {"number": np.arange(first, first + len(height)), "certificate": None, "method": method}
     given |= {"status": "success" if rtol is None else status, "precision": "double" if low is None else "double-double"}
     return Modes._made(None, system=chain, gravity=gravity, rtol=rtol, **given)
-
-
-def _of_cord_or_held(
-    place: str,
-    system: Cord | Held,
-    count: int | str | None,
-    first: int,
-    heights: Pair | None,
-    speeds: tuple[float, float, float] | None,
-    rtol: float | None,
-    gravity: float,
-    asked: dict[str, Any],
-    progress: _core.Progress | None,
-) -> Modes:
-    if isinstance(system, Cord):
-        _refuse(place, asked, "is for a Chain; the heights of a Cord have closed forms or power series")
-        if count == "all":
-            raise ValueError(f"{place}: a cord has infinitely many modes; give count, or a window that ends")
-        wanted = None if heights or speeds else count_of(place, count, 10, each=24)
-        of_cord = _core.cord_modes(system._under(gravity), first, wanted, heights, speeds, rtol, progress)
-        return CordModes._made(of_cord, system=system, gravity=gravity, rtol=rtol)
-    if not isinstance(system, Held):
-        raise no_system(place, system)
-    certify = asked["certify"]
-    if isinstance(system.system, Chain):
-        asked = asked | {"certify": False}
-    _refuse(place, asked, "is for a Chain that hangs")
-    core, most = straight(place, system, gravity), system.mode_count
-    if most is None and count == "all":
-        raise ValueError(f"{place}: a cord has infinitely many modes; give count, or a window that ends")
-    default = 10 if most is None else max(min(10, most - first + 1), 1)
-    wanted = None if heights or speeds else count_of(place, count, default, each=24)
-    if not isinstance(core, _core.Held):
-        of_cord = _core.held_modes(core, first, wanted, heights, speeds, rtol, progress, gravity)
-        return CordModes._made(of_cord, system=system, gravity=gravity, rtol=rtol)
-    of_held = _core.held_modes(core, first, wanted, heights, speeds, rtol, certify, progress, gravity)
-    return Modes._made(of_held, system=system, gravity=gravity, precision="double", rtol=rtol)
 
 
 def straight(place: str, held: Held, gravity: float) -> _core.Held | _core.HeldCord:
@@ -357,20 +343,13 @@ def count_of(place: str, count: int | str | None, default: int, each: int = 0) -
     return checked_count(place, "count", count, each)
 
 
-def _refuse(place: str, given: dict[str, Any], reason: str) -> None:
-    """Raise a ValueError if an option for chains only was given."""
-    for name, value in given.items():
-        if value is not _DEFAULTS[name] and not (isinstance(value, str) and value == _DEFAULTS[name]):
-            raise ValueError(f"{place}: {name} {reason}, got {shown(value)}")
-
-
-def _window(place: str, name: str, window: object) -> Pair:
+def _window(name: str, window: object) -> Pair:
     """The two ends of a window; their order is checked where it is used."""
     if isinstance(window, str | set | dict) or not isinstance(window, Iterable) or getattr(window, "ndim", 1) == 0:
-        raise ValueError(f"{place}: {name} must be a pair (low, high), got {shown(window)}")
-    ends = [real(place, f"{name} (each end)", end) for end in window]
+        raise ValueError(f"{_PLACE}: {name} must be a pair (low, high), got {shown(window)}")
+    ends = [real(_PLACE, f"{name} (each end)", end) for end in window]
     if len(ends) != 2:
-        raise ValueError(f"{place}: {name} must be a pair (low, high), got {shown(window)}")
+        raise ValueError(f"{_PLACE}: {name} must be a pair (low, high), got {shown(window)}")
     return ends[0], ends[1]
 
 
@@ -431,30 +410,26 @@ def count_modes(
     place = "revchain.count_modes"
     if (conical_height is None) == (angular_speed is None):
         raise ValueError(f"{place}: give either conical_height or angular_speed")
-    if isinstance(system, Chain):
-        core = compiled(place, system)
-        if conical_height is not None:
-            positive(place, "gravity", gravity)
-            return _core.count_modes(core, floats(place, "conical_height", conical_height))[()]
-        assert angular_speed is not None
-        speed = floats(place, "angular_speed", angular_speed)
-        speed, each = together(place, angular_speed=speed, gravity=positive(place, "gravity", gravity))
-        return _core.count_modes_at_speed(core, speed, each)[()]
-    g = one_positive(place, "gravity", gravity)
-    if conical_height is not None:
-        height = positive(place, "conical_height", conical_height)
-    elif isinstance(system, Rig):
-        return _core.count_rig_modes(system._under(g), floats(place, "angular_speed", angular_speed), False, g)[()]
-    else:
-        assert angular_speed is not None
-        height = g / positive(place, "angular_speed", angular_speed) ** 2
-    if isinstance(system, Cord):
-        return _core.count_cord_modes(system._under(g), height)[()]
-    if isinstance(system, Held):
-        return _core.count_held_modes(straight(place, system, g), height, g)[()]
-    if isinstance(system, Rig):
-        return _core.count_rig_modes(system._under(g), height, True, g)[()]
-    raise no_system(place, system)
+    kind = getattr(system, "_kind", None)
+    if kind not in _FIND:
+        raise no_system(place, system)
+    of: Any = system
+    height: Any = conical_height
+    speed: Any = None if angular_speed is None else floats(place, "angular_speed", angular_speed)
+    if kind == "chain":
+        core, g = compiled(place, of), positive(place, "gravity", gravity)
+        if speed is None:
+            return _core.count_modes(core, floats(place, "conical_height", height))[()]
+        return _core.count_modes_at_speed(core, *together(place, angular_speed=speed, gravity=g))[()]
+    one = one_positive(place, "gravity", gravity)
+    if kind == "rig" and speed is not None:
+        return _core.count_rig_modes(of._under(one), speed, False, one)[()]
+    height = positive(place, "conical_height", height) if speed is None else one / positive(place, "angular_speed", speed) ** 2
+    if kind == "rig":
+        return _core.count_rig_modes(of._under(one), height, True, one)[()]
+    if kind == "cord":
+        return _core.count_cord_modes(of._under(one), height)[()]
+    return _core.count_held_modes(straight(place, of, one), height, one)[()]
 
 
 def recurrence_matrices(chain: Chain) -> tuple[Floats, Floats]:

@@ -6,7 +6,6 @@ from __future__ import annotations
 from typing import Any
 
 from ..systems.numbers import shown
-from ..systems.system import System
 
 
 def no_system(place: str, system: Any) -> TypeError:
@@ -14,12 +13,15 @@ def no_system(place: str, system: Any) -> TypeError:
     return TypeError(f"{place}: system must be a revchain.Chain, Rig, Cord or Held, got {shown(system)}")
 
 
-def refuse_other(place: str, system: Any, kinds: tuple[type, ...], instead: dict[type, str]) -> None:
-    """Raise a ValueError for a system without an answer, with the question to ask instead; a TypeError for no system."""
-    if isinstance(system, kinds):
+def refuse_other(place: str, system: Any, kinds: tuple[str, ...], instead: dict[str, str]) -> None:
+    """Raise a ValueError for a system without an answer, with the question to ask instead; a TypeError for no system.
+
+    `kinds` are first words of kinds of systems that have an answer; `instead` has the others.
+    """
+    kind = getattr(system, "_kind", "").partition(" ")[0]
+    if kind in kinds:
         return
-    if isinstance(system, System):
-        name = type(system).__name__
-        raise ValueError(f"{place}: is not available for a {name}; {instead[type(system)]}")
-    names = " or ".join(kind.__name__ for kind in kinds)
+    if kind:
+        raise ValueError(f"{place}: is not available for a {type(system).__name__}; {instead[kind]}")
+    names = " or ".join(each.capitalize() for each in kinds)
     raise TypeError(f"{place}: system must be a revchain.{names}, got {shown(system)}")

@@ -8,20 +8,20 @@ from typing import Any
 import numpy as np
 
 from .. import _core
-from ..results.bent import cord_shapes_made, held_shapes_made
-from ..results.shapes import SteadyShapes, shapes_made
+from ..results.shapes import SteadyShape, SteadyShapes, shape_made, shapes_made
 from ..systems.chain import Chain, compiled
 from ..systems.cord import Cord
 from ..systems.held import Held
 from ..systems.numbers import STANDARD_GRAVITY, boolean, exactly_one, integer, limit, one_positive, shown
 from ..systems.numbers import count as counted
 from ..systems.rig import Rig
+from ..systems.system import System
 from .refuse import no_system
 
 LEAST, MOST = 1e-150, 1e150
 """Limits of conical heights, and of squared speeds without gravity; products with tensions then stay finite."""
 MOST_HALF_WAVES = 1000
-_BUDGET = {False: 3_000_000, True: 300_000}
+BUDGET = {Chain: 3_000_000, Rig: 3_000_000, Cord: 200, Held: 300_000}
 
 
 def steady_shapes(
@@ -35,10 +35,14 @@ def steady_shapes(
     direction: int = 1,
     max_half_waves: int = 1,
     prove: bool = True,
-    scanned: int = 200,
     threads: int = 1,
+    mode: int | None = None,
+    lowest_inclination: float | None = None,
+    tip_radius: float | None = None,
+    top_tension: float | None = None,
+    min_conical_height: float | None = None,
 ) -> SteadyShapes:
-    """Return all steady shapes (relative equilibria) of a system at a given speed, at any inclination.
+    """Return all steady shapes (relative equilibria) of a system at a speed, or all of one branch with a property.
 
     Parameters
     ----------
@@ -52,9 +56,10 @@ def steady_shapes(
         Acceleration of gravity, m/s^2; standard gravity if left out. Not used for a weightless held system.
     budget : int, optional
         Largest number of links to visit while the range of inclinations of the lowest link is split. Chains and rigs:
-        3,000,000 if left out, at half a microsecond each (two if ``l < a``), about 2 to 10 seconds in all; with 0 or less
-        the list is empty and not complete. Held chains: 300,000 if left out, at 1 to 2 microseconds each; with 0
-        completeness is not proved.
+        3,000,000 if left out, at half a microsecond each (two if ``l < a``), about 2 to 10 seconds in all; with 0 or
+        less the list is empty and not complete. Held chains: 300,000 if left out, at 1 to 2 microseconds each; with 0
+        completeness is not proved. Cords for which no theorem counts the shapes: number of offsets of the free end to
+        examine, 200 if left out.
     hanging_only : bool, optional
         Chains and rigs: whether to leave out shapes in which a link is inverted, that is, at more than a right angle to
         the downward vertical. For a rig: whether to leave out shapes with other links inverted than those of the rig.
@@ -64,11 +69,14 @@ def steady_shapes(
         For `Held` systems: search only for shapes with at most this number of half waves.
     prove : bool, optional
         Held chains: whether to prove error bounds and completeness; else the bounds are estimates.
-    scanned : int, optional
-        Cords for which no theorem counts the shapes: number of offsets of the free end to examine.
     threads : int, optional
         Number of threads for chains and rigs; 0 for all processors. Results are bitwise equal for any number. Threads
         share the refinement of the shapes, not the search, which is about half of the work.
+    mode : int, optional
+        Chains, rigs and cords: search only the branch of this mode, see `steady_shape`. Then a property may be given
+        instead of the speed, and the shapes have different speeds.
+    lowest_inclination, tip_radius, top_tension, min_conical_height : float, optional
+        With `mode`, as in `steady_shape`. `min_conical_height` is half the height of the speed if left out.
 
     Returns
     -------
@@ -76,17 +84,17 @@ def steady_shapes(
         A sequence of shapes.
 
         Chains and rigs: every hanging shape (all links within a right angle of the downward vertical) or, if
-        `hanging_only` is false, every shape. Straight shapes are left out. Of two mirror images the one with the free end
-        at a positive offset is given (if that is 0, the one with a positive inclination of the lowest inclined link). If
-        the support is carried round there are no mirror images; outwards is positive. The order is by half waves, then by
-        inclination of the lowest link. ``complete`` is true if it is proved that none is missing among those asked for. Inclinations are within
-        the proved ``error_bound``, usually 2.2e-16. The list is empty and complete if the height exceeds that of the
-        first mode, in any posture.
+        `hanging_only` is false, every shape. Straight shapes are left out. Of two mirror images the one with the free
+        end at a positive offset is given (if that is 0, the one with a positive inclination of the lowest inclined
+        link). If the support is carried round there are no mirror images; outwards is positive. The order is by half
+        waves, then by inclination of the lowest link. ``complete`` is true if it is proved that none is missing among
+        those asked for. Inclinations are within the proved ``error_bound``, usually 2.2e-16. The list is empty and
+        complete if the height exceeds that of the first mode, in any posture.
 
         Cords: ordered by half waves. ``complete`` is true if a theorem counts the shapes: there is then one for each
         critical height above the given height. This holds for a uniform cord with or without a tip, and for a density
-        ``s**p`` without a tip, or with a tip if p is below 0. It also holds if at most one critical height lies above the
-        given one. Otherwise a shape that exists only between two scanned offsets is missed.
+        ``s**p`` without a tip, or with a tip if p is below 0. It also holds if at most one critical height lies above
+        the given one. Otherwise a shape that exists only between two scanned offsets is missed.
 
         Held systems: shapes of 1 to `max_half_waves` half waves, ordered by half waves. Among shapes with equally many,
         the one that is reached from the nearly straight chain without gravity, as the ends approach and gravity then
@@ -104,24 +112,24 @@ def steady_shapes(
     Raises
     ------
     ValueError
-        If not exactly one of `angular_speed` and `conical_height` is given, a number is not positive
-        and finite, `direction` is neither 1 nor -1, or a link of a rig has no effective tension (tension plus
-        speed times momentum divided by length) at the speed.
+        If not exactly one of `angular_speed` and `conical_height` is given, a number is not positive and finite,
+        `direction` is neither 1 nor -1, or a link of a rig has no effective tension (tension plus speed times momentum
+        divided by length) at the speed; if a property is given without `mode`, or `mode` for a held system.
     TypeError
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`, or `hanging_only` or `prove` is not a bool.
 
     Notes
     -----
-    Chains and rigs. Method: interval arithmetic with first and second derivatives of the upward sweep, Greenhill (1908),
-    section 8 (4), (12), then Newton's method on all pins in double-double. A link that is inverted, or whose
-    ``pendulum_length > length``, can have three inclinations under one load; all are followed. The list is not complete
-    exactly at a critical speed or where two shapes start, or if the budget ends. For heights below about 2e-15 of the
-    longest link it is empty and not complete: double-double cannot represent the offsets from which the tensions follow.
-    Cost: 15 milliseconds for 84 hanging shapes of eight plummets, about 30 for all 64 shapes of four plummets. The
-    number of shapes and the time roughly double with each link; if links may be inverted they quadruple.
+    Chains and rigs. Method: interval arithmetic with first and second derivatives of the upward sweep, Greenhill
+    (1908), section 8 (4), (12), then Newton's method on all pins in double-double. A link that is inverted, or whose
+    ``pendulum_length > length``, can have three inclinations under one load; all are followed. The list is not
+    complete exactly at a critical speed or where two shapes start, or if the budget ends. For heights below about
+    2e-15 of the longest link it is empty and not complete: double-double cannot represent the offsets from which the
+    tensions follow. Cost: 15 milliseconds for 84 hanging shapes of eight plummets, about 30 for all 64 shapes of four
+    plummets. The number of shapes and the time roughly double with each link; if links may be inverted they quadruple.
 
     Cords. Method: power series along the cord, Newton's method on the point where it crosses the axis. Inclinations,
-    and offsets divided by the length, are within ``error_estimate``.
+    and offsets divided by the length, are within ``error_bound``, which is an estimate.
 
     Held systems. Accuracy: inclinations of chains are correctly rounded to within 1e-20, with a bound that is usually
     proved; positions on cords are within 1e-13 of the length. Completeness: Krawczyk's test on the pull along the
@@ -143,11 +151,10 @@ def steady_shapes(
 
     >>> carousel = rc.Rig(rc.Chain(weight=800.0, length=4.0), support=rc.Support(radius=1.0))
     >>> rc.steady_shapes(carousel, angular_speed=1.2566)
-    1 hanging shape at 1.25660 rad/s (12.00 rpm), proved complete
+    1 hanging shape at 1.25660 rad/s (12.00 rpm), proved complete; with links above their pins (hanging_only=False) there may be more
     shape  half waves  lowest link (°)  top link (°)  free end: from axis (m)  above support (m)  top tension  error (rad)
         1           1           21.824        21.824                   2.4870            -3.7133       861.76      2.2e-16
     inclinations: from the downward vertical; error: proved bound on every inclination
-    hanging_only=False also looks for shapes with links above their pins
     >>> [round(float(np.degrees(s.inclination[0])), 1) for s in rc.steady_shapes(carousel, angular_speed=3.0)]
     [77.5, -68.1, -20.7]
 
@@ -161,6 +168,12 @@ def steady_shapes(
     >>> slow.missing, slow.complete
     ((1,), True)
 
+    The shapes of one branch whose free end is 0.53 m from the axis:
+
+    >>> plummets = rc.Chain.uniform_plummets(3, length=3.0)
+    >>> rc.steady_shapes(plummets, mode=2, tip_radius=0.53).speed.round(4)
+    array([ 7.0837, 13.5539])
+
     A cord, and a skipping rope with one and two half waves:
 
     >>> cord = rc.Cord(500.0)
@@ -172,64 +185,258 @@ def steady_shapes(
     [0.402, 0.2013]
     """
     place = "revchain.steady_shapes"
-    most = limit(place, "budget", _BUDGET[isinstance(system, Held)] if budget is None else budget)
+    if not isinstance(system, System):
+        raise no_system(place, system)
+    wanted = {"lowest_inclination": lowest_inclination, "tip_radius": tip_radius, "top_tension": top_tension}
+    turns = rotation(place, direction)
+    if mode is not None:
+        name, value = exactly_one(place, conical_height=conical_height, angular_speed=angular_speed, **wanted)
+        g = one_positive(place, "gravity", gravity)
+        found = on_branch(place, system, mode, name, value, g, turns, min_conical_height, _core.shapes_on_branch)
+        searched = {"mode": mode, "complete": False, "hanging_only": False, "missing": ()}
+        speed = dict.fromkeys(("conical_height", "angular_speed"))
+        if name in speed:
+            speed = dict(zip(speed, _height_and_speed(name, value, g), strict=True))
+        items = tuple(shape_made(shape, system, g, turns) for shape in found)
+        nothing: dict[str, Any] = {"undecided": np.empty((0, 2)), "cells": 0}
+        return SteadyShapes._made(None, _items=items, system=system, gravity=g, **searched, **speed, **nothing)
+    for name, given in (*wanted.items(), ("min_conical_height", min_conical_height)):
+        if given is not None:
+            raise ValueError(f"{place}: {name} selects shapes of one branch; give mode, too, got {name}={shown(given)}")
+    kind = next(kind for kind in BUDGET if isinstance(system, kind))
+    most = limit(place, "budget", BUDGET[kind] if budget is None else budget)
+    if kind is Cord and not 1 <= most <= 10**6:
+        raise ValueError(f"{place}: budget must be from 1 to 1000000 offsets of the free end of a cord, got {most}")
     hanging = boolean(place, "hanging_only", hanging_only)
-    if integer(place, "direction", direction) not in (1, -1):
-        raise ValueError(f"{place}: direction must be 1 or -1, got {shown(direction)}")
     waves = counted(place, "max_half_waves", max_half_waves)
     if waves > MOST_HALF_WAVES:
         raise ValueError(f"{place}: max_half_waves must be at most {MOST_HALF_WAVES}, got {waves}")
-    looks = integer(place, "scanned", scanned)
-    if not 1 <= looks <= 10**6:
-        raise ValueError(f"{place}: scanned must be from 1 to 1000000, got {looks}")
     proved = boolean(place, "prove", prove)
     shared = integer(place, "threads", threads)
-    if isinstance(system, Held) and system.weightless:
-        return _weightless(place, system, conical_height, angular_speed, (waves, proved, most))
+    g, height, speed_ = _turning(place, system, conical_height, angular_speed, gravity)
+    # of the two numbers for one speed the core gets the one that was given; a cord the height
+    of_core, by_height = compiled_system(place, system, g), kind is Cord or conical_height is not None
+    one, other = (height, None) if by_height else (None, speed_)
+    found = _core.steady_shapes(of_core, one, other, g, turns, hanging, waves, proved, most, shared)
+    limits = {"hanging_only": hanging and kind in (Chain, Rig), "conical_height": height, "angular_speed": speed_}
+    return shapes_made(found, system, g, turns, **limits)
+
+
+def _turning(
+    place: str, system: System, conical_height: float | None, angular_speed: float | None, gravity: float
+) -> tuple[float, float, float]:
+    """Gravity, conical height and speed."""
+    if getattr(system, "weightless", False):
+        if conical_height is not None:
+            raise ValueError(
+                f"{place}: without gravity there is no conical height; give angular_speed, got {shown(conical_height)}"
+            )
+        if angular_speed is None:
+            raise ValueError(f"{place}: give angular_speed: without gravity tensions are as its square")
+        speed = one_positive(place, "angular_speed", angular_speed)
+        if not LEAST <= speed * speed <= MOST:
+            raise ValueError(f"{place}: angular_speed must have a square from {LEAST:g} to {MOST:g}, got {speed:g}")
+        return 0.0, 0.0, speed
     name, value = exactly_one(place, conical_height=conical_height, angular_speed=angular_speed)
     g = one_positive(place, "gravity", gravity)
-    if name == "angular_speed":
-        height, speed = float(_core.conical_pendulum_height(np.asarray(value), np.asarray(g))), value
-    else:
-        height, speed = value, float(_core.conical_pendulum_angular_speed(np.asarray(value), np.asarray(g)))
+    height, speed = _height_and_speed(name, value, g)
     if isinstance(system, Cord):
         one_positive(place, f"the conical height of {name}", height)
-        return cord_shapes_made(_core.cord_shapes(system._under(g), height, looks), system, height, speed, g, looks)
-    if isinstance(system, Held):
-        if not LEAST <= height <= MOST:
-            raise ValueError(f"{place}: {name} must give a conical height from {LEAST:g} to {MOST:g}, got {value:g}")
-        given = (value, None) if name == "conical_height" else (None, value)
-        return _held(system, height, speed, g, (*given, g, waves, proved, most))
-    if isinstance(system, Rig):
-        core = system._under(g)
-        if name == "conical_height":
-            found = _core.steady_shapes_of_rig(core, value, most, hanging, int(direction), g, shared)
-        else:
-            found = _core.steady_shapes_of_rig_at_speed(core, int(direction) * value, most, hanging, g, shared)
-    elif not isinstance(system, Chain):
+    if isinstance(system, Held) and not LEAST <= height <= MOST:
+        raise ValueError(f"{place}: {name} must give a conical height from {LEAST:g} to {MOST:g}, got {value:g}")
+    return g, height, speed
+
+
+def _height_and_speed(name: str, value: float, gravity: float) -> tuple[float, float]:
+    one, g = np.asarray(value), np.asarray(gravity)
+    if name == "angular_speed":
+        return float(_core.conical_pendulum_height(one, g)), value
+    return value, float(_core.conical_pendulum_angular_speed(one, g))
+
+
+def steady_shape(
+    system: Chain | Rig | Cord | Held,
+    *,
+    mode: int = 1,
+    conical_height: float | None = None,
+    angular_speed: float | None = None,
+    lowest_inclination: float | None = None,
+    tip_radius: float | None = None,
+    top_tension: float | None = None,
+    gravity: float = STANDARD_GRAVITY,
+    direction: int = 1,
+    min_conical_height: float | None = None,
+) -> SteadyShape:
+    """Return the steady shape on the branch of one mode at a speed, or the one with a given property.
+
+    Parameters
+    ----------
+    system : Chain, Rig, Cord or Held
+        The system: a chain of N links (100,000 and more are possible), a rig, a cord, or a chain or cord held at a
+        span.
+    mode : int, optional
+        Number of the mode at which the branch leaves the vertical, from 1 for the slowest. With the support off the
+        axis it must be 1, the branch from rest; for shapes of other branches use `branches` and `Branch.at`. For a
+        held system it is the number of half waves of the branch at high speed.
+    conical_height : float
+        Conical height of the speed, m, less than that of the mode. Give exactly one of this and the next four.
+    angular_speed : float
+        Speed, rad/s.
+    lowest_inclination : float
+        Magnitude of the inclination of the lowest link (of a cord: of its free end), rad: between 0 and pi/2, for an
+        inverted link between pi/2 and pi. The link may lean either way; with the support off the axis it leans
+        outwards.
+    tip_radius : float
+        Distance of the free end from the axis, m, on either side.
+    top_tension : float
+        Tension at the topmost pin (of a held system: at its upper end), greater than the weight that hangs there; in N,
+        or in the unit of the weights.
+    gravity : float, optional
+        Acceleration of gravity, m/s^2; standard gravity if left out.
+    direction : {1, -1}, optional
+        Direction of rotation; only a rig with flywheels depends on it.
+    min_conical_height : float, optional
+        Conical height at which the search ends, m, less than that of the mode; 1e-6 of that of the mode if left out.
+        Not used for a held system.
+
+    Returns
+    -------
+    SteadyShape
+        The shape, the first on the branch that has the property (`steady_shapes` with `mode` returns all).
+        Inclinations are within ``error_bound``, for chains proved except at a fold (measured: 2.3e-16), for cords
+        estimated. Each step checks that the shape is on this branch, see `branch`. For a held system and a speed it is
+        the shape reached from the nearly straight chain; for a held system and a top tension it is the fastest shape
+        of the branch with that tension.
+
+    Raises
+    ------
+    ValueError
+        If there is no such mode, if not exactly one number is given or it is out of its range, if `direction` is
+        neither 1 nor -1, if `min_conical_height` is not below the height of the mode, if the branch does not exist yet
+        at that speed, or if no shape of the branch has the property; if a `Held` system is under a tension or has no
+        gravity, or comes with `lowest_inclination` or `tip_radius`.
+
+    Notes
+    -----
+    Cost: O(N); 0.4 s for 100,000 rods at twice the first critical speed. Source: Greenhill (1908), section 8 (4), (12).
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> chain = rc.Chain.uniform_rods(120, length=0.36)
+    >>> shape = rc.steady_shape(chain, mode=2, angular_speed=20.0)
+    >>> shape.half_waves, round(shape.angular_speed, 9)
+    (2, 20.0)
+    >>> again = rc.steady_shape(chain, mode=2, tip_radius=shape.offset[0])
+    >>> round((9.80665 / again.conical_height) ** 0.5, 9)
+    20.0
+
+    The speed at which a chair of a carousel is 2.5 m from the axis:
+
+    >>> carousel = rc.Rig(rc.Chain(mass=80.0, length=4.0), support=rc.Support(radius=1.0))
+    >>> round(rc.steady_shape(carousel, tip_radius=2.5).angular_speed, 4)
+    1.2597
+    """
+    place = "revchain.steady_shape"
+    if not isinstance(system, System):
         raise no_system(place, system)
-    elif name == "conical_height":
-        found = _core.steady_shapes(compiled(place, system), value, most, hanging, shared)
-    else:
-        found = _core.steady_shapes_at_speed(compiled(place, system), value, g, most, hanging, shared)
-    return shapes_made(found, system, height, speed, g, int(direction), hanging)
+    wanted = {"lowest_inclination": lowest_inclination, "tip_radius": tip_radius, "top_tension": top_tension}
+    name, value = exactly_one(place, conical_height=conical_height, angular_speed=angular_speed, **wanted)
+    g, turns = one_positive(place, "gravity", gravity), rotation(place, direction)
+    return shape_on_branch(place, system, mode, name, value, g, turns, min_conical_height)
 
 
-def _weightless(
-    place: str, held: Held, conical_height: Any, angular_speed: Any, how: tuple[int, bool, int]
-) -> SteadyShapes:
-    if conical_height is not None:
+def shape_on_branch(
+    place: str,
+    system: System,
+    mode: int,
+    name: str,
+    value: float,
+    gravity: float,
+    direction: int = 1,
+    lowest: float | None = None,
+) -> SteadyShape:
+    """The first shape on the branch of a mode with a number, such as ``angular_speed``; see `steady_shape`."""
+    found = on_branch(place, system, mode, name, value, gravity, direction, lowest, _core.steady_shape)
+    speed = {}
+    if hasattr(system, "span"):
+        speed = {"angular_speed": value if name == "angular_speed" else float((gravity / found.conical_height) ** 0.5)}
+    return shape_made(found, system, gravity, direction, **speed)
+
+
+def on_branch(
+    place: str,
+    system: System,
+    mode: int,
+    name: str,
+    value: float,
+    gravity: float,
+    direction: int,
+    lowest: float | None,
+    question: Any,
+) -> Any:
+    """The compiled answer to a question about shapes on the branch of a mode."""
+    number = counted(place, "mode", mode)
+    if held := isinstance(system, Held):
+        _check_held(place, system, number, name, value)
+        if question is not _core.steady_shape:
+            what = "mode is not available for a Held; use branches for the shapes along a branch"
+            raise ValueError(f"{place}: {what}, got {mode}")
+    lowest = None if lowest is None else one_positive(place, "min_conical_height", lowest)
+    force = value
+    if name == "top_tension":
+        unit = system._force(gravity)
+        if isinstance(system, Chain | Cord) and not value > (least := unit * system._total):
+            what = type(system).__name__.lower()
+            what = f"top_tension must be more than the weight {least:.6g} of the {what}"
+            raise ValueError(f"{place}: {what}, got {value:g}")
+        force /= unit
+    core = compiled_system(place, system, gravity)
+    try:
+        return question(core, number, name, force, gravity, direction, lowest)
+    except ValueError as error:
+        if name == "lowest_inclination":  # which C++ calls that of the tip
+            raise ValueError(str(error).replace("tip inclination", name)) from None
+        if name != "top_tension" or not held:
+            raise
+        what = str(error).partition(": ")[2].rpartition(", got ")[0]  # the number there is the tension / gravity
+        raise ValueError(f"{place}: {what}; use branches for the tensions that it has, got {value:g}") from None
+
+
+def _check_held(place: str, held: Held, mode: int, name: str, value: float) -> None:
+    require_span(place, held)
+    if name not in ("conical_height", "angular_speed", "top_tension"):
         raise ValueError(
-            f"{place}: without gravity there is no conical height; give angular_speed, got {shown(conical_height)}"
+            f"{place}: a held system has no free end; give conical_height, angular_speed or top_tension, got {name}"
         )
-    speed = one_positive(place, "angular_speed", angular_speed) if angular_speed is not None else None
-    if speed is None:
-        raise ValueError(f"{place}: give angular_speed: without gravity tensions are as its square")
-    if not LEAST <= speed * speed <= MOST:
-        raise ValueError(f"{place}: angular_speed must have a square from {LEAST:g} to {MOST:g}, got {speed:g}")
-    return _held(held, 0.0, speed, 0.0, (None, speed, 0.0, *how))
+    most = max(held.size - 1, 1) * (1 if held.is_on_axis else 2)
+    if held.size and mode > most:
+        raise ValueError(f"{place}: mode must be from 1 to {most}, got {mode}")
+    if name == "top_tension" and not held.is_firm:
+        raise ValueError(
+            f"{place}: top_tension is for firm ends; with springs give angular_speed, or read the speed from the "
+            f"top_tension of a branch, got {value:g}"
+        )
 
 
-def _held(held: Held, height: float, speed: float, gravity: float, asked: tuple[Any, ...]) -> SteadyShapes:
-    by = (held.span, held._pull(gravity), held.weightless, *held._ends(gravity))
-    return held_shapes_made(_core.held_shapes(held.system._compiled, *by, *asked), held, height, speed, gravity, asked)
+def require_span(place: str, held: Held) -> None:
+    """Raise a ValueError for a held system under a tension or without gravity: it has no branches."""
+    if held.span is None:
+        raise ValueError(
+            f"{place}: is for a system held at a span; under a tension use steady_shapes at a speed, or modes"
+        )
+    if held.weightless:
+        why = "a shape is the same at every speed" if held.is_firm else "there are no branches"
+        raise ValueError(f"{place}: without gravity {why}; use steady_shapes")
+
+
+def rotation(place: str, direction: int) -> int:
+    """`direction`; a ValueError unless it is 1 or -1."""
+    if integer(place, "direction", direction) not in (1, -1):
+        raise ValueError(f"{place}: direction must be 1 or -1, got {shown(direction)}")
+    return int(direction)
+
+
+def compiled_system(place: str, system: System, gravity: float) -> Any:
+    """The compiled system; a ValueError for a chain of too many links."""
+    return compiled(place, system) if isinstance(system, Chain) else system._under(gravity)

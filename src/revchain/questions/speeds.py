@@ -8,10 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..results.modes import Modes
-from ..systems.chain import Chain
-from ..systems.held import Held
 from ..systems.numbers import Floats, Whole
-from ..systems.rig import Rig
 from .modes import modes
 
 
@@ -28,14 +25,14 @@ def speeds(place: str, system: Any, numbers: Whole, gravity: float) -> Speeds:
     """The speeds of modes by number, with -k for the k-th backward mode; a ValueError if there is no such mode."""
     size = np.abs(numbers)
     first, last = int(size.min()), int(size.max())
-    most = None if not isinstance(system, Chain | Held) else system.mode_count
+    most = system.mode_count
     if most is not None and last > most:
         raise ValueError(f"{place}: mode must be from 1 to {most}, the number of modes, got {last}")
     try:
         found: Any = modes(system, last - first + 1, first=first, gravity=gravity)
     except ValueError as error:
         raise ValueError(f"{place}: {str(error).partition(': ')[2].replace('first must', 'mode must')}") from None
-    turned = isinstance(system, Rig) and found.has_momentum
+    turned = found.has_momentum
     known, wanted = (found.number * found.direction, numbers) if turned else (found.number, size)
     there = known == wanted[:, None]
     if not there.any(axis=1).all():

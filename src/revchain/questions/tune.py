@@ -19,9 +19,10 @@ from ..systems.datum import Datum, read
 from ..systems.held import Held
 from ..systems.numbers import STANDARD_GRAVITY, count, exactly_one, height_of, one_positive, real, shown
 from ..systems.rig import Rig
-from .held import held_shape
+from ..systems.system import System
 from .modes import modes, straight
 from .refuse import no_system
+from .shapes import shape_on_branch
 from .speeds import speeds
 
 _PLACE = "revchain.tune"
@@ -135,17 +136,18 @@ def tune(
     >>> round(rc.tune(rope, vary="mass", angular_speed="2 Hz", top_tension=9.0).value, 6)
     0.173584
     """
-    if not isinstance(system, Chain | Rig | Cord | Held):
+    if not isinstance(system, System):
         raise no_system(_PLACE, system)
+    of: Any = system
     if not isinstance(vary, str):
         raise ValueError(f"{_PLACE}: vary must be a path such as {_PATHS}, got {shown(vary)}")
     number = count(_PLACE, "mode", mode)
     g = one_positive(_PLACE, "gravity", gravity)
-    if isinstance(system, Rig):
+    if system._kind == "rig":
         name, value = _of_either_sign(angular_speed, conical_height)
     else:
         name, value = exactly_one(_PLACE, conical_height=conical_height, angular_speed=angular_speed)
-    bent = isinstance(system, Held) and system.span is not None
+    bent = system._is_held and of.span is not None
     if bent and top_tension is None:
         raise ValueError(
             f"{_PLACE}: a system held at a span is bent and has no critical speed; also give top_tension, the "
@@ -153,20 +155,20 @@ def tune(
         )
     if top_tension is not None and not bent:
         raise ValueError(f"{_PLACE}: top_tension is for a system held at a span; leave it out, got {shown(top_tension)}")
-    if isinstance(system, Held) and not bent:
-        straight(_PLACE, system, g)
+    if system._is_held and not bent:
+        straight(_PLACE, of, g)
     datum = read(_PLACE, system, vary, g)
     height, speed = _height_and_speed(name, value, g)
-    if isinstance(system, Chain) and vary != "length":
-        return _link(system, datum, number, name, value, g, between)
+    if system._kind == "chain" and vary != "length":
+        return _link(of, datum, number, name, value, g, between)
     if bent:
         pull = one_positive(_PLACE, "top_tension", top_tension)
         return _searched(datum, speed, g, between, lambda held: _speed_under(held, number, pull, g))
     one: Tuned | None = None
-    if isinstance(system, Rig):
-        one = _formed(system, datum, number, speed, g)
-    elif vary == "length" and not (isinstance(system, Held) and not system.is_plain):  # springs keep their stiffness
-        one = _length(system, datum, number, height, g)
+    if system._kind == "rig":
+        one = _formed(of, datum, number, speed, g)
+    elif vary == "length" and not (system._is_held and not of.is_plain):  # springs keep their stiffness
+        one = _length(of, datum, number, height, g)
     if one is None:
         signed = np.array([number if speed > 0 else -number])
 
@@ -275,7 +277,7 @@ def _formed(rig: Rig, datum: Datum, mode: int, speed: float, gravity: float) -> 
 
 def _speed_under(held: Held, mode: int, tension: float, gravity: float) -> tuple[float, float]:
     """The speed at which the branch of a mode has a tension, and the estimate of its relative error."""
-    shape = held_shape(_PLACE, held, mode, "top_tension", tension, gravity, False)
+    shape = shape_on_branch(_PLACE, held, mode, "top_tension", tension, gravity)
     return shape.angular_speed, 1e-13 if held.size else 1e-11
 
 

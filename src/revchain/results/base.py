@@ -4,14 +4,15 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
+from itertools import repeat
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, Self, TypeVar, overload
 
 import numpy as np
 
 from ..systems.numbers import integer, read_only, shown
 from ..systems.unchangeable import Unchangeable
-from .sheet import Sheet, as_dataframe, as_dataset, as_dict, as_html, as_text
+from .sheet import Column, Sheet, as_dataframe, as_dataset, as_dict, as_html, as_rows, as_text
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -21,16 +22,62 @@ Value = TypeVar("Value")
 
 
 class Field(Generic[Value]):
-    """One number, array or result of a result: computed (or read from the compiled result) on first use, then kept.
+    """One number, array or result of a result: computed (or read from the compiled result) on first use, then stored.
 
-    Two results are equal if all fields with `part` are equal, and a file holds all of these. Other fields follow from
-    them; a file holds those that were computed.
+    Two results are equal if all fields that are parts are equal, and a file holds all of these. Other fields follow from
+    them; a file holds those that were computed. A field without a function is a part unless it says ``part=False``.
+
+    A field with a heading is a column of the printed table, in the order of the fields, and one with `axes` a column of
+    dictionaries, data frames and files. A field with `fact` describes the whole result there. A column that a result does
+    not have, or that is None, is left out.
+
+    Attributes
+    ----------
+    otherwise : callable, optional
+        Function of the result for what its compiled result does not have.
+    heading : str or callable
+        Heading of the column, to which the unit is added unless it ends with ")"; or a function of the result that returns
+        it, empty if the column is not printed.
+    unit : str
+        Unit of the numbers. Angles (``"rad"``) are printed in degrees. ``"force"`` is N for a system given by mass, else
+        the unit of its weights, which is unknown.
+    digits : int
+        Number of significant digits in printed tables.
+    axes : tuple of str, optional
+        Names of the axes after the first, which counts the rows; or a function of the result that returns them.
+    shown : callable, optional
+        Function of the result that returns what is printed instead, such as words.
+    joined : bool
+        Whether the field is a result with the same rows, whose columns are added to those of this one.
+    column : str, optional
+        Name of the column, if it is not that of the field.
+    left : bool
+        Whether printed tables align the column on the left.
     """
 
-    def __init__(self, doc: str, compute: Callable[[Any], Any] | None = None, *, part: bool = False) -> None:
+    def __init__(
+        self,
+        doc: str,
+        compute: Callable[[Any], Any] | None = None,
+        *,
+        otherwise: Callable[[Any], Any] | None = None,
+        part: bool | None = None,
+        heading: str | Callable[[Any], str] | None = None,
+        unit: str = "",
+        digits: int = 6,
+        axes: tuple[str, ...] | Callable[[Any], tuple[str, ...]] | None = None,
+        shown: Callable[[Any], Any] | None = None,
+        fact: bool = False,
+        joined: bool = False,
+        column: str | None = None,
+        left: bool = False,
+    ) -> None:
         self.__doc__ = doc
-        self.compute = compute
-        self.part = part
+        self.compute, self.otherwise = compute, otherwise
+        self.part = compute is None if part is None else part
+        self.key, self.joined, self.left = column, joined, left
+        self.heading, self.unit, self.digits, self.shown, self.fact = heading, unit, digits, shown, fact
+        self.axes = () if axes is None and heading is not None else axes
 
     def __set_name__(self, owner: type[Result], name: str) -> None:
         self.name = name
@@ -40,16 +87,39 @@ class Field(Generic[Value]):
     @overload
     def __get__(self, result: Any, owner: type[Any]) -> Value: ...
     def __get__(self, result: Any, owner: type[Any]) -> Any:
+        # Not called where the dictionary of the result has the name: a descriptor without __set__ comes after it.
         if result is None:
             return self
-        kept = result._kept
-        if self.name in kept:
-            return kept[self.name]
-        found = frozen(self.compute(result) if self.compute else getattr(result._found(), self.name))
-        return kept.setdefault(self.name, found)  # two threads that compute it at once get one object
+        if self.compute is not None:
+            found = self.compute(result)
+        else:
+            core = result.__dict__["_core"] or result._found()
+            if hasattr(core, self.name):
+                found = getattr(core, self.name)
+            elif self.otherwise is not None:
+                found = self.otherwise(result)
+            else:  # the compiled result of this kind of system has no such number
+                raise UnavailableError(_not_there(result, self.name))
+        if type(found) is np.ndarray:
+            found.flags.writeable = False
+        elif type(found) is list or (type(found) is tuple and self.compute is not None):
+            found = frozen(found)
+        return result.__dict__.setdefault(self.name, found)  # two threads that compute it at once get one object
 
-    def __set__(self, result: Result, value: object) -> None:
-        raise AttributeError(f"a {type(result).__name__} cannot be changed: {self.name} was not set")
+    def column(self, result: Any) -> Column:
+        """The column of a result."""
+        values = getattr(result, self.name)
+        heading = self.heading(result) if callable(self.heading) else self.heading or ""
+        unit, shown = self.unit, None if self.shown is None else self.shown(result)
+        if unit == "force":
+            unit = "N" if result.system.by_mass else ""
+        if heading and unit == "rad":
+            heading, shown = f"{heading} (°)", np.degrees(values) if shown is None else shown
+        elif heading and unit and heading[-1] != ")":
+            heading = f"{heading} ({unit})"
+        axes = self.axes(result) if callable(self.axes) else self.axes or ()
+        data = (self.key or self.name, values, heading, self.digits, axes, shown, self.left, unit)
+        return tuple.__new__(Column, data)  # Column(...) would take a call more
 
 
 class UnavailableError(AttributeError, ValueError):
@@ -59,17 +129,29 @@ class UnavailableError(AttributeError, ValueError):
 class Result(Unchangeable):
     """The base of all results: immutable values that can be pickled; two are equal if all their parts are equal.
 
-    A subclass lists its data as `Field`s. Its `_sheet` returns the table, and its `_again` repeats the question for a
-    field that a file did not hold.
+    A subclass lists its data as `Field`s, from which the table, dictionaries, files and equality follow. Where a field
+    is computed by a compiled result, the subclass says in `_from_parts` how that is made from the parts of a loaded one.
+    Arguments of the class statement:
+
+    - `row`: name of what a row of the table is, such as ``"mode"``;
+    - `title`: line above the table, with names of fields in braces;
+    - `notes`: lines below it, likewise;
+    - `spread`: whether a long table prints evenly spaced rows instead of the first ones.
     """
 
-    __slots__ = ("_core", "_kept")
+    __slots__ = ("__dict__",)  # has the fields known so far and, as `_core`, the compiled result
     _core: Any
-    _kept: dict[str, Any]
     _fields: ClassVar[dict[str, Field[Any]]] = {}
     _kinds: ClassVar[dict[str, type[Result]]] = {}
+    _row: ClassVar[str] = "row"
+    _title: ClassVar[str] = ""
+    _notes: ClassVar[tuple[str, ...]] = ()
+    _spread: ClassVar[bool] = False
 
     def __init_subclass__(cls, **given: Any) -> None:
+        for name in ("row", "title", "notes", "spread"):
+            if name in given:
+                setattr(cls, f"_{name}", given.pop(name))
         super().__init_subclass__(**given)
         own = {name: value for name, value in vars(cls).items() if isinstance(value, Field)}
         cls._fields = {**cls._fields, **own}
@@ -77,36 +159,64 @@ class Result(Unchangeable):
             Result._kinds[cls.__name__] = cls
 
     def __init__(self) -> None:
-        raise TypeError(f"revchain.{type(self).__name__}: is what a question returns or revchain.load reads; call a question, such as revchain.modes")
+        raise TypeError(
+            f"revchain.{type(self).__name__}: is what a question returns or revchain.load reads; call a question, such as "
+            "revchain.modes"
+        )
 
     @classmethod
-    def _made(cls, core: Any, **parts: Any) -> Self:
+    def _made(cls, core: Any = None, **parts: Any) -> Self:
         """A result from a compiled one and the parts that the compiled one does not hold."""
         result = object.__new__(cls)
-        _set(result, "_core", core)
         for name, value in parts.items():
             if type(value) in _HOLD:
                 parts[name] = frozen(value)
-        _set(result, "_kept", parts)
+        parts["_core"] = core
+        result.__dict__.update(parts)
         return result
 
     def _found(self) -> Any:
         """The compiled result."""
-        if self._core is None:
-            _set(self, "_core", self._again())
-        return self._core
+        core = self.__dict__["_core"]
+        if core is None:
+            core = self.__dict__["_core"] = self._from_parts()
+        return core
 
-    def _again(self) -> Any:
+    def _from_parts(self) -> Any:
+        """The compiled result, made from the parts of a loaded one."""
         raise NotImplementedError
+
+    def _is_good(self) -> bool:
+        """Whether everything was found and proved."""
+        known = self.__dict__
+        return known.get("complete", True) is not False and known.get("status", "success") in ("success", "found")
+
+    def _left_out(self) -> Collection[str]:
+        """Names of columns that a printed table leaves out, because they would take long to compute."""
+        return ()
 
     def _sheet(self, brief: bool = False) -> Sheet:
-        """The data as columns; with `brief` only the columns that a printed table shows."""
-        raise NotImplementedError
+        """The data as columns; with `brief` only what a printed table shows."""
+        columns, facts, left_out = [], {}, self._left_out() if brief else ()
+        for name, field in self._fields.items():
+            if field.axes is not None and (field.heading or not brief):
+                if name not in left_out and getattr(self, name, None) is not None:
+                    columns.append(field.column(self))
+            elif brief or not (field.fact or field.joined) or not hasattr(self, name):
+                continue
+            elif (value := getattr(self, name)) is not None and field.joined:
+                columns += [each._replace(name=f"{name}_{each.name}", heading="") for each in value._sheet().columns[1:]]
+            elif field.fact:
+                facts[field.key or name] = as_rows(value._sheet()) if isinstance(value, Result) else value
+        words = _Words(self)
+        notes = "\n".join(map(str.format_map, self._notes, repeat(words))).splitlines()
+        title = self._title.format_map(words)
+        return Sheet(self._row, title, columns, facts, notes, self._is_good(), self._spread)
 
     def _state(self) -> dict[str, Any]:
         """All parts, and the other fields computed so far."""
-        parts = {name: getattr(self, name) for name, field in self._fields.items() if field.part}
-        return parts | {name: value for name, value in dict(self._kept).items() if name in self._fields}
+        parts = {name: getattr(self, name) for name, field in self._fields.items() if field.part and hasattr(self, name)}
+        return parts | {name: value for name, value in dict(self.__dict__).items() if name in self._fields}
 
     def to_dict(self) -> dict[str, Any]:
         """Return the data of the table as plain Python data.
@@ -205,7 +315,9 @@ class Result(Unchangeable):
         if type(other) is not type(self):
             return NotImplemented
         return all(
-            same(getattr(self, name), getattr(other, name)) for name, field in self._fields.items() if field.part
+            same(getattr(self, name, None), getattr(other, name, None))
+            for name, field in self._fields.items()
+            if field.part
         )
 
     __hash__ = None  # type: ignore[assignment]
@@ -266,13 +378,26 @@ class Results(Result, Listed[Item]):
     """A list of results, with fields of its own."""
 
     __slots__ = ()
-    _items: Field[tuple[Any, ...]] = Field("The results.", part=True)
+    _items: Field[tuple[Any, ...]] = Field("The results.")
 
 
-_set = object.__setattr__
+class _Words:
+    """The fields of a result by name, for the text of titles and notes."""
+
+    def __init__(self, result: Result) -> None:
+        self.result = result
+
+    def __getitem__(self, name: str) -> Any:
+        return getattr(self.result, name)
 
 
-_HOLD = (np.ndarray, list, tuple)  # types that may hold writable arrays
+def _not_there(result: Any, name: str) -> str:
+    """The sentence about a field that a result of this kind of system does not have."""
+    system = type(result.system).__name__ if "system" in result.__dict__ else "result of this kind"
+    return f"revchain.{type(result).__name__}.{name}: a {system} does not have it"
+
+
+_HOLD = (np.ndarray, list, tuple, dict)  # types that may hold writable arrays
 
 
 def restored(kind: type[Result], state: dict[str, Any]) -> Result:
@@ -299,3 +424,27 @@ def same(one: Any, other: Any) -> bool:
     if isinstance(one, dict) and isinstance(other, dict):
         return one.keys() == other.keys() and all(same(item, other[name]) for name, item in one.items())
     return bool(one == other or (one != one and other != other))
+
+
+class Row:
+    """One row of a result: the number, text or array of each of its columns, by the names of the fields."""
+
+    __slots__ = ("_index", "_result")
+
+    def __init__(self, result: Result, index: int) -> None:
+        self._result, self._index = result, index
+
+    def __getattr__(self, name: str) -> Any:
+        field = type(self._result)._fields.get(name)
+        if field is None or field.axes is None:
+            raise AttributeError(f"a row of {type(self._result).__name__} has no {name}; see dir(row)")
+        values = getattr(self._result, name)
+        return None if values is None else values[self._index]
+
+    def __dir__(self) -> list[str]:
+        return [name for name, field in self._result._fields.items() if field.axes is not None]
+
+    def __repr__(self) -> str:
+        sheet = self._result._sheet(brief=True)
+        cells = [f"{column.heading} {column.texts([self._index])[0]}" for column in sheet.columns if column.heading]
+        return ", ".join(cells)

@@ -1,32 +1,26 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Branches of steady shapes, and the windows of stability along them."""
+"""Branches of steady shapes of all systems, and the windows of stability along them."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core
-from ..systems.chain import Chain
-from ..systems.cord import Cord
 from ..systems.numbers import Floats, Whole, count, height_of, one_positive, place_of
-from ..systems.rig import Rig
-from .base import Field, Result, Results
+from .base import Field, Result, Results, UnavailableError
 from .moving import Moving
-from .shapes import SteadyShape, forced, is_driven
-from .sheet import Column, Sheet
+from .shapes import FORCES, SteadyShape, forced, is_driven, shape_made, stacked
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 Pair = tuple[float, float]
-AnyBranch = TypeVar("AnyBranch", bound=Result)
 
 
-class StabilityWindow(Result):
+class StabilityWindow(Result, row="end", title="Stability window: {verdict}"):
     """A part of a branch with one verdict on stability; returned by `Branch.stability_windows`.
 
     Examples
@@ -38,25 +32,20 @@ class StabilityWindow(Result):
     """
 
     __slots__ = ()
-    verdict: Field[str] = Field("``'minimum'``, ``'spectrally stable'``, ``'unstable'`` or ``'undecided'``.", part=True)
-    conical_height: Field[Pair] = Field(
-        "Conical height at both ends, m; the end nearer to the start of the branch first.", part=True
+    end: Field[tuple[str, str]] = Field("Names of the ends.", lambda w: ("start", "end"), heading="at")
+    verdict: Field[str] = Field("``'minimum'``, ``'spectrally stable'``, ``'unstable'`` or ``'undecided'``.", fact=True)
+    angular_speed: Field[Pair] = Field(
+        "Speed at both ends, rad/s; the end nearer to the start of the branch first.", heading="speed", unit="rad/s"
     )
-    arc: Field[Pair] = Field("`Branch.arc` at both ends.", part=True)
-
-    def _sheet(self, brief: bool = False) -> Sheet:
-        columns = [
-            Column("end", ["start", "end"], "at"),
-            Column("conical_height", np.array(self.conical_height), "height (m)"),
-            Column("arc", np.array(self.arc), "along the branch"),
-        ]
-        return Sheet("end", f"Stability window: {self.verdict}", columns, {"verdict": self.verdict})
+    conical_height: Field[Pair] = Field("Conical height at both ends, m.", heading="height", unit="m")
+    arc: Field[Pair] = Field("`Branch.arc` at both ends.", heading="along the branch")
 
 
-class Branch(Result, Moving):
-    """A branch of steady shapes, point by point along its arc; returned by `branch` and `branches`.
+class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spread=True):
+    """A branch of steady shapes, point by point; returned by `branch` and `branches`.
 
-    Arrays have one number for each point.
+    Arrays have one number for each point. The branch of a chain, rig or cord that hangs is followed along its arc from
+    its start; that of a held system goes from the greatest speed to lower speeds and, after a fold, back.
 
     Examples
     --------
@@ -66,65 +55,100 @@ class Branch(Result, Moving):
     array([2.3968, 9.9029])
     >>> branch.end, branch.folds.size
     ('height', 0)
+    >>> blade = rc.Held(rc.Chain.uniform_rods(20, length=24.0, mass=160.0), span=17.0)
+    >>> branch = rc.branch(blade, 1, max_angular_speed=6.0)
+    >>> branch.angular_speed[[0, -1]].round(3), branch.end
+    (array([6.   , 0.828]), 'slack')
     """
 
     __slots__ = ()
-    system: Field[Chain | Rig] = Field("The chain or rig.", part=True)
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
-    direction: Field[int] = Field("Direction of rotation, 1 or -1; only a rig with flywheels depends on it.", part=True)
+    system: Field[Any] = Field("The chain, rig, cord, or held chain or cord.")
     mode: Field[int | None] = Field(
-        "Number of the mode at whose critical speed the branch leaves the vertical; 1 for a branch from rest; None for "
-        "an isolated branch.",
+        "Number of the mode at whose critical speed the branch leaves the vertical; 1 for a branch from rest; None "
+        "for an isolated branch. For a held system its half waves at the greatest speed; with ends off the axis the "
+        "number is ``2 * k - 1`` if the lowest link of the k half waves leads outwards, ``2 * k`` if inwards.",
         lambda b: b._found().mode or None,
         part=True,
+        fact=True,
     )
     birth: Field[str] = Field(
-        "Start of the branch. ``'vertical'``: it leaves the straight chain at a critical speed. ``'rest'``: it starts at "
-        "rest, with the support off the axis. ``'fold'``: it is isolated; two shapes start at a fold.",
-        part=True,
-    )
-    arc: Field[Floats] = Field(
-        "Arc length of the branch from its first point, dimensionless: the root of the mean square of the links' ``d "
-        "arsinh(tan(inclination))`` plus the square of ``d log(conical_height)``, summed up.",
-        part=True,
-    )
-    conical_height: Field[Floats] = Field("Conical height of the speed, m.", part=True)
-    angular_speed: Field[Floats] = Field("Speed at each point, rad/s.", lambda b: np.sqrt(b.gravity / b.conical_height))
-    tip_inclination: Field[Floats] = Field(
-        "Inclination of the lowest link to the vertical, rad. Of two mirror images the branch follows the one that agrees "
-        "with the mode shape of `modes`; an isolated branch follows the one that starts with the free end at a positive "
-        "offset. The link is vertical where the sign changes. With the support off the axis there are no mirror images; "
-        "outwards is positive.",
-        part=True,
-    )
-    tip_radius: Field[Floats] = Field("Signed offset of the free end from the axis, m.", part=True)
-    top_tension: Field[Floats] = Field(
-        "Magnitude of the reaction at the topmost pin, N or in the unit of the weights.",
-        forced("top_tension"),
-        part=True,
-    )
-    moment_of_inertia: Field[Floats] = Field(
-        "Moment of inertia about the axis, kg m^2; for a chain given by weight, in weight times length squared.", part=True
-    )
-    effective_energy: Field[Floats] = Field(
-        "Potential energy minus half the moment of inertia times the speed squared, J.",
-        forced("effective_energy"),
-        part=True,
-    )
-    half_waves: Field[Whole] = Field("Sign changes of the offsets, plus one.", part=True)
-    folds: Field[Whole] = Field(
-        "Indices of the points at which the conical height has a local extremum: two shapes appear or merge there.",
-        part=True,
+        "Start of the branch. ``'vertical'``: it leaves the straight chain or cord at a critical speed. ``'rest'``: "
+        "it starts at rest, with the support off the axis. ``'fold'``: it is isolated; two shapes start at a fold. "
+        "Not for held systems.",
+        fact=True,
     )
     end: Field[str] = Field(
         "Reason why the branch ends. ``'height'``: the given conical height is reached. ``'closed'``: the branch is "
-        "back at its start. ``'vertical'``: it is back at the straight chain. ``'budget'``: `max_points` is reached. "
-        "``'stuck'``: no step passed every check. ``'slow'``: it approaches rest. ``'slack'``: flywheels cancel the "
-        "tension of a link, which becomes horizontal. ``'loose'``: the spring at the support no longer holds the "
-        "chain.",
-        part=True,
+        "back at its start. ``'vertical'``: it is back at the straight chain. ``'budget'``: `max_points` (of a held "
+        "system 3000 steps) are done. ``'stuck'``: no step passed every check. ``'slow'``: it approaches rest. "
+        "``'slack'``: a link becomes slack, or with flywheels horizontal, or turns over (of a held system the last "
+        "speed is within a measured 2e-5, relative). ``'loose'``: the spring at the support no longer holds the "
+        "chain. ``'folded'``: a held cord hangs folded along the axis. ``'speed'``: the greatest speed is reached "
+        "again. ``'rest'``: with ends off the axis the held chain hangs as at rest, at a conical height of 10,000 "
+        "lengths.",
+        fact=True,
     )
-    asked: Field[tuple[Any, ...]] = Field("Arguments of the call, used to compute shapes later.", part=True)
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", fact=True)
+    direction: Field[int] = Field("Direction of rotation, 1 or -1; only a rig with flywheels depends on it.", fact=True)
+    point: Field[Whole] = Field("Indices of the points.", lambda b: np.arange(len(b)), heading="point")
+    angular_speed: Field[Floats] = Field(
+        "Speed at each point, rad/s.", lambda b: np.sqrt(b.gravity / b.conical_height), heading="speed", unit="rad/s"
+    )
+    conical_height: Field[Floats] = Field("Conical height of the speed, m.", heading="height", unit="m")
+    lowest_inclination: Field[Floats] = Field(
+        "Inclination of the lowest link, or of the lower end of a cord, to the downward vertical (of held systems to "
+        "the upward one), rad. Of two mirror images the branch follows the one that agrees with the mode shape of "
+        "`modes`; an isolated branch follows the one that starts with the free end at a positive offset. The link is "
+        "vertical where the sign changes. With the support off the axis there are no mirror images; outwards is "
+        "positive.",
+        heading="lowest link",
+        unit="rad",
+    )
+    tip_radius: Field[Floats] = Field(
+        "Signed offset of the free end from the axis, m; not for held systems.", heading="tip radius", unit="m"
+    )
+    largest_offset: Field[Floats] = Field(
+        "Largest distance of a pin or place of a held system from the axis, m.",
+        heading="largest distance from axis",
+        unit="m",
+    )
+    top_tension: Field[Floats] = Field(
+        "Magnitude of the reaction at the topmost pin or at the upper end, N or in the unit of the weights.",
+        forced("top_tension"),
+        part=True,
+        heading="top tension",
+    )
+    half_waves: Field[Whole] = Field("Sign changes of the offsets, plus one.", heading="half waves")
+    is_fold: Field[NDArray[np.bool_]] = Field(
+        "Whether each point is a fold.", lambda b: np.isin(b.point, b.folds), heading="fold", column="fold"
+    )
+    moment_of_inertia: Field[Floats] = Field(
+        "Moment of inertia about the axis, kg m^2; for a system given by weight, in weight times length squared.",
+        axes=(),
+    )
+    effective_energy: Field[Floats] = Field(
+        "Potential energy minus half the moment of inertia times the speed squared, J. Not for held cords.",
+        forced("effective_energy"),
+        part=True,
+        axes=(),
+    )
+    arc: Field[Floats] = Field(
+        "Arc length of the branch from its first point, dimensionless: the root of the mean square of the links' ``d "
+        "arsinh(tan(inclination))`` (of a cord: that of its free end) plus the square of ``d log(conical_height)``, "
+        "summed up. Not for held systems.",
+        axes=(),
+    )
+    inclination: Field[Any] = Field(
+        "Inclination of each link at each point, rad, shape (points, N), as in `SteadyShape`; of held cords at the "
+        "places of each shape. Not for hanging cords.",
+        lambda b: b._inclination(),
+        axes=lambda b: ("place",) if isinstance(b.inclination, tuple) else ("link",),
+    )
+    folds: Field[Whole] = Field(
+        "Indices of the points at which the conical height has a local extremum: two shapes appear or merge there.",
+    )
+    _points: Field[Floats] = Field("The numbers that give the shapes.", lambda b: b._found().points, part=True)
+    _shapes: Field[dict[str, Any] | None] = Field("The numbers of the shape at each point of a held system, else None.")
 
     def shape(self, point: int) -> SteadyShape:
         """Return the shape at a point of the branch.
@@ -137,7 +161,9 @@ class Branch(Result, Moving):
         Returns
         -------
         SteadyShape
-            The shape, computed in double-double. Its ``error_bound`` is proved, except at a fold, where it is an estimate.
+            The shape of a chain or rig, computed in double-double. Its ``error_bound`` is proved, except at a fold,
+            where it is an estimate, as it is for cords (at a fold 1e-7, because of the place of the fold on the arc)
+            and for held systems; for a held chain `steady_shapes` at its speed proves one.
 
         Raises
         ------
@@ -151,8 +177,14 @@ class Branch(Result, Moving):
         >>> branch.shape(-1).inclination.round(4)
         array([1.5208, 1.5041])
         """
-        number = place_of("revchain.Branch.shape", "point", point, len(self))
-        return self._shape(self._found().shape(number), self.gravity)
+        k = place_of("revchain.Branch.shape", "point", point, len(self))
+        if self._shapes is None:
+            proved = {"proved": False} if self.is_fold[k] else {}
+            return shape_made(self._found().shape(k), self.system, self.gravity, self.direction, **proved)
+        numbers = {name: rows[k].item() if np.ndim(rows[k]) == 0 else rows[k] for name, rows in self._shapes.items()}
+        speed = float(self.angular_speed[k])
+        given = {"system": self.system, "gravity": self.gravity, "direction": self.direction, "angular_speed": speed}
+        return SteadyShape._made(None, **given, **numbers)
 
     def at(
         self,
@@ -182,7 +214,7 @@ class Branch(Result, Moving):
         ------
         ValueError
             If not exactly one of `conical_height` and `angular_speed` is given, or a number is not positive
-            and finite.
+            and finite, or the system is held.
 
         Examples
         --------
@@ -193,15 +225,19 @@ class Branch(Result, Moving):
         """
         place = "revchain.Branch.at"
         g = self.gravity if gravity is None else one_positive(place, "gravity", gravity)
-        if isinstance(self.system, Rig) and g != self.gravity:
-            raise ValueError(f"{place}: gravity must be that of the rig's branch, {self.gravity:g}, got {g:g}; follow it anew")
+        if hasattr(self.system, "support") and g != self.gravity:
+            what = f"gravity must be that of the rig's branch, {self.gravity:g}"
+            raise ValueError(f"{place}: {what}, got {g:g}; follow it anew")
         height = height_of(place, conical_height, angular_speed, g)
-        return tuple(self._shape(found, g) for found in self._found().states_at(height))
+        if self._shapes is not None:
+            what = "is for systems that hang; for a Held ask steady_shapes at the speed"
+            raise ValueError(f"{place}: {what}, got {height:g}")
+        return tuple(shape_made(found, self.system, g, self.direction) for found in self._found().shapes_at(height))
 
     def stability_windows(
         self, *, frame: str = "free", tolerance: float = 1e-6, samples: int = 8
     ) -> list[StabilityWindow]:
-        """Return the windows of stability along the branch.
+        """Return the windows of stability along the branch of a chain or rig.
 
         Parameters
         ----------
@@ -221,7 +257,8 @@ class Branch(Result, Moving):
         Raises
         ------
         ValueError
-            If `frame` is another word, `tolerance` is not positive or `samples` is below 1.
+            If `frame` is another word, `tolerance` is not positive or `samples` is below 1; for cords and held systems,
+            whose shapes have their stability: ``branch.shape(k).stability()``.
 
         Examples
         --------
@@ -237,18 +274,31 @@ class Branch(Result, Moving):
         driven = is_driven(place, frame)
         wide = one_positive(place, "tolerance", tolerance)
         places = min(count(place, "samples", samples), 10**6)
-        found = _core.stability_windows(self._compiled(), self._found(), driven, wide, places)
-        return [StabilityWindow._made(None, verdict=verdict, conical_height=(h0, h1), arc=(s0, s1)) for s0, s1, h0, h1, verdict in found]
+        if self._shapes is not None or not isinstance(self._found(), _core.Branch):
+            raise ValueError(f"{place}: is for chains; use the stability of shapes: branch.shape(-1).stability()")
+        found = _core.stability_windows(self.system._under(self.gravity), self._found(), driven, wide, places)
+        return [
+            StabilityWindow._made(
+                None,
+                verdict=verdict,
+                conical_height=(h0, h1),
+                arc=(s0, s1),
+                angular_speed=((self.gravity / h0) ** 0.5, (self.gravity / h1) ** 0.5),
+            )
+            for s0, s1, h0, h1, verdict in found
+        ]
 
-    def plot(self, ax: Axes | None = None, *, quantity: str = "tip_inclination") -> Axes:
-        """Draw a quantity of the branch against the speed divided by the first critical speed; folds are marked.
+    def plot(self, ax: Axes | None = None, *, quantity: str | None = None) -> Axes:
+        """Draw a quantity of the branch against the speed; folds are marked.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
             Axes to draw in; a new figure if left out.
-        quantity : {"tip_inclination", "tip_radius", "top_tension", "moment_of_inertia", "effective_energy"}
-            Quantity to draw; an inclination is in degrees.
+        quantity : str, optional
+            Quantity to draw: ``lowest_inclination`` (in degrees; of hanging systems unless given), ``tip_radius``,
+            ``largest_offset`` (of held systems unless given), ``top_tension``, ``moment_of_inertia`` or
+            ``effective_energy``.
 
         Returns
         -------
@@ -258,7 +308,7 @@ class Branch(Result, Moving):
         Raises
         ------
         ValueError
-            If `quantity` is another word.
+            If `quantity` is another word, or one that the system does not have.
         ImportError
             If matplotlib is not installed; the message says how to install it.
 
@@ -267,61 +317,56 @@ class Branch(Result, Moving):
         >>> import revchain as rc
         >>> ax = rc.branch(rc.Chain.uniform_plummets(2, length=2.0), 1, min_conical_height=0.1).plot()
         >>> ax.get_ylabel()
-        'tip inclination (degrees)'
+        'inclination of the lowest link (degrees)'
         """
         from ..plots.branches import plot_branches
 
-        return plot_branches([self], _first_height([self]), ax, quantity=quantity, place="revchain.Branch.plot")
+        return plot_branches([self], ax, quantity=quantity, place="revchain.Branch.plot")
 
     @property
     def _per(self) -> float:
-        return self.system._force(self.gravity)
+        return float(self.system._force(self.gravity))
 
     def __len__(self) -> int:
-        return int(self.arc.size)
+        return int(self.conical_height.size)
 
-    def _shape(self, found: _core.SteadyShape, gravity: float) -> SteadyShape:
-        return SteadyShape._made(found, system=self.system, gravity=gravity, direction=self.direction)
+    def _from_parts(self) -> Any:
+        """The compiled branch with these numbers; no point is computed again."""
+        if self._shapes is not None:
+            raise UnavailableError("revchain.Branch: the branch of a held system does not have it")
+        columns = (self.arc, self.conical_height, self.half_waves, self.folds, self._points)
+        system: Any = self.system._under(self.gravity)
+        return _core.branch_from(system, self.mode or 0, self.birth, *columns, self.gravity, self.direction)
 
-    def _compiled(self) -> Any:
-        return self.system._under(self.gravity) if isinstance(self.system, Rig) else self.system._compiled
+    def _inclination(self) -> Any:
+        if self._shapes is not None:
+            return self._shapes["inclination"]
+        if not isinstance(self._found(), _core.Branch):
+            raise UnavailableError("revchain.Branch.inclination: a hanging cord has it in the shapes: branch.shape(k)")
+        straight = np.arctan(np.sinh(self._points[:, : self.system.size]))  # to the line in which the link hangs or stands
+        turned = np.copysign(np.pi, straight) - straight
+        return np.where(getattr(self.system, "inverted", False), turned, straight)
 
-    def _again(self) -> _core.Branch:
-        core = self._compiled()
-        if len(self.asked) == 4:
-            found: _core.Branch = _core.branch(core, *self.asked, self.gravity, self.direction)
-            return found
-        height, lists, budget, proof_budget, place = self.asked
-        diagram = _core.branches(core, height, lists, budget, proof_budget, self.gravity, self.direction)
-        found = diagram.branches[place]
-        return found
+    @property
+    def _name(self) -> str:
+        if self._shapes is None:
+            return "from rest" if self.birth == "rest" else "isolated" if self.mode is None else f"of mode {self.mode}"
+        waves = int(self.half_waves[0])
+        mode = "" if self.system.is_on_axis else f" (mode {self.mode})"
+        return f"of {waves} half wave{'s' * (waves != 1)}{mode}"
 
-    def _sheet(self, brief: bool = False) -> Sheet:
-        columns = [
-            Column("point", np.arange(len(self)), "point"),
-            Column("angular_speed", self.angular_speed, "speed (rad/s)"),
-            Column("conical_height", self.conical_height, "height (m)"),
-            Column("tip_inclination", self.tip_inclination, "tip (°)", shown=np.degrees(self.tip_inclination)),
-            Column("tip_radius", self.tip_radius, "tip radius (m)"),
-            Column("top_tension", self.top_tension, "top tension"),
-            Column("half_waves", self.half_waves, "half waves"),
-            Column("fold", is_fold(self), "fold"),
-            Column("moment_of_inertia", self.moment_of_inertia),
-            Column("effective_energy", self.effective_energy),
-            Column("arc", self.arc),
-        ]
-        name = "from rest" if self.birth == "rest" else "isolated" if self.mode is None else f"of mode {self.mode}"
-        heading = f"Branch {name}: {fold_words(self)}"
-        names = ("mode", "birth", "end", "gravity", "direction")
-        facts = {each: getattr(self, each) for each in names}
-        return Sheet("point", heading, columns, facts, spread=True)
+    @property
+    def _extent(self) -> str:
+        many = self.folds.size
+        folds = f", {many} fold{'s' * (many != 1)}" if many else ""
+        return f"{len(self)} points{folds}, ends at {self.end}"
 
 
-class Branches(Results[Branch], Moving):
-    """All branches found down to one conical height; returned by `branches`.
+class Branches(Results[Branch], Moving, row="branch", title="{_title_words}"):
+    """The branches found down to one conical height; returned by `branches`.
 
     The branches of the modes come first, slowest first; with the support off the axis it is the branch from rest. The
-    isolated branches, which start at folds, follow.
+    isolated branches, which start at folds, follow. Those of a held system are ordered by half waves.
 
     Examples
     --------
@@ -332,39 +377,69 @@ class Branches(Results[Branch], Moving):
     """
 
     __slots__ = ()
-    system: Field[Chain | Rig] = Field("The chain or rig.", part=True)
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
-    direction: Field[int] = Field("Direction of rotation, 1 or -1; only a rig with flywheels depends on it.", part=True)
+    system: Field[Any] = Field("The chain, rig, cord, or held chain or cord.")
+    number: Field[Whole] = Field("Indices.", lambda b: np.arange(len(b)), heading="branch", column="branch")
+    mode: Field[tuple[str, ...]] = Field(
+        "Number of the mode of each branch as text, ``'rest'`` or ``'isolated'``.",
+        lambda b: tuple(_born(each) for each in b),
+        heading="mode",
+    )
+    points: Field[Whole] = Field(
+        "Number of points of each branch.", lambda b: np.array([len(each) for each in b], int), heading="points"
+    )
+    folds: Field[Whole] = Field(
+        "Number of folds of each branch.", lambda b: np.array([each.folds.size for each in b], int), heading="folds"
+    )
+    lowest_speed: Field[Floats] = Field(
+        "Lowest speed of each branch, rad/s.",
+        lambda b: np.array([each.angular_speed.min() for each in b], float),
+        heading="lowest speed",
+        unit="rad/s",
+    )
+    highest_speed: Field[Floats] = Field(
+        "Highest speed of each branch, rad/s.",
+        lambda b: np.array([each.angular_speed.max() for each in b], float),
+        heading="highest speed",
+        unit="rad/s",
+    )
+    end: Field[tuple[str, ...]] = Field(
+        "`Branch.end` of each branch.", lambda b: tuple(each.end for each in b), heading="ends at"
+    )
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", fact=True)
+    direction: Field[int] = Field("Direction of rotation, 1 or -1; only a rig with flywheels depends on it.", fact=True)
     consistent: Field[bool] = Field(
-        "Whether at each of the speeds `looked_at` the list is proved and each of its shapes lies on exactly one branch.",
-        part=True,
+        "Whether at each of the speeds `looked_at` the list is proved (of a cord: scanned) and each of its shapes "
+        "lies on exactly one branch. Not for held systems, nor are the next three.",
+        fact=True,
     )
     complete: Field[bool] = Field(
-        "Whether it is also proved that no branch is missing, even a closed one between two of these speeds.", part=True
+        "Whether it is also proved that no branch is missing, even a closed one between two of these speeds; for a "
+        "cord whether a theorem counts the shapes (see `steady_shapes`) and every branch was followed to its end.",
+        fact=True,
     )
-    looked_at: Field[Floats] = Field("Conical heights at which all shapes were listed, m, descending.", part=True)
-    remark: Field[str] = Field("A sentence that says what may be missing.", part=True)
+    remark: Field[str] = Field("A sentence that says what may be missing.", fact=True)
+    looked_at: Field[Floats] = Field("Conical heights at which all shapes were listed, m, descending.", fact=True)
 
-    def plot(self, ax: Axes | None = None, *, quantity: str = "tip_inclination") -> Axes:
-        """Draw the bifurcation diagram: a quantity of each branch against the speed divided by the first critical speed.
+    def plot(self, ax: Axes | None = None, *, quantity: str | None = None) -> Axes:
+        """Draw the bifurcation diagram: a quantity of each branch against the speed.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
             Axes to draw in; a new figure if left out.
-        quantity : {"tip_inclination", "tip_radius", "top_tension", "moment_of_inertia", "effective_energy"}
-            Quantity to draw; an inclination is in degrees.
+        quantity : str, optional
+            Quantity to draw, as in `Branch.plot`.
 
         Returns
         -------
         matplotlib.axes.Axes
-            The drawing. Colours show half waves. Isolated branches are dashed, with the speed at which each starts. The
-            title says whether the diagram is `complete`.
+            The drawing. Colours show half waves, hollow marks folds. Isolated branches are dashed, with the speed at
+            which each starts. The title says whether the diagram is `complete`.
 
         Raises
         ------
         ValueError
-            If `quantity` is another word.
+            If `quantity` is another word, or one that the system does not have.
         ImportError
             If matplotlib is not installed; the message says how to install it.
 
@@ -373,81 +448,75 @@ class Branches(Results[Branch], Moving):
         >>> import revchain as rc
         >>> ax = rc.branches(rc.Chain.uniform_plummets(3, length=3.0), min_conical_height=0.04).plot()
         >>> ax.get_xlabel()
-        'speed / first critical speed'
+        'speed (rad/s)'
         """
         from ..plots.branches import plot_branches
 
-        ax = plot_branches(self, _first_height(self), ax, quantity=quantity, place="revchain.Branches.plot")
+        ax = plot_branches(self, ax, quantity=quantity, place="revchain.Branches.plot")
         if not self:
             ax.set_title("no shape at or above this conical height")
-        else:
+        elif hasattr(self, "complete"):
             ax.set_title("all branches: proved complete" if self.complete else "branches found: not proved complete")
         return ax
 
-    def _sheet(self, brief: bool = False) -> Sheet:
-        columns = [
-            Column("branch", np.arange(len(self)), "branch"),
-            Column("mode", [_born(each) for each in self], "mode"),
-            *branch_sizes(self),
-        ]
+    def _from_parts(self) -> Any:
+        what = "the branches of a held system do not have it; steady_shapes proves a list"
+        raise UnavailableError(f"revchain.Branches: {what}")
+
+    @property
+    def _title_words(self) -> str:
+        if not hasattr(self, "complete"):
+            return f"{len(self)} branch{'es' * (len(self) != 1)} from the nearly straight chain"
         isolated = sum(each.mode is None for each in self)
         begin = "from rest" if self and self[0].birth == "rest" else "from the vertical"
-        heading = f"Branches: {len(self) - isolated} {begin}, {isolated} isolated; {self.remark}"
-        names = ("gravity", "direction", "consistent", "complete", "remark", "looked_at")
-        return Sheet("branch", heading, columns, {name: getattr(self, name) for name in names}, good=self.complete)
-
-
-def branches_made(found: _core.Branches, asked: tuple[Any, ...], **given: Any) -> Branches:
-    """The list of compiled branches; `given` holds the system, gravity and direction."""
-    items = branch_items(Branch, found.branches, asked, given)
-    return Branches._made(found, _items=items, **given)
-
-
-def branch_items(
-    kind: type[AnyBranch], found: list[Any], asked: tuple[Any, ...], given: dict[str, Any]
-) -> tuple[AnyBranch, ...]:
-    """The branches from compiled ones; the data to repeat the question of each end with its index."""
-    return tuple(kind._made(each, asked=(*asked, k), **given) for k, each in enumerate(found))
-
-
-def is_fold(branch: Any) -> NDArray[np.bool_]:
-    """Whether each point of a branch is a fold."""
-    fold = np.zeros(len(branch), bool)
-    fold[branch.folds] = True
-    return fold
-
-
-def fold_words(branch: Any) -> str:
-    """Text with the number of points and folds of a branch, and its end."""
-    many = branch.folds.size
-    folds = f", {many} fold{'s' * (many != 1)}" if many else ""
-    return f"{len(branch)} points{folds}, ends at {branch.end}"
-
-
-def branch_sizes(branches: Sequence[Any]) -> list[Column]:
-    """The columns that all lists of branches have."""
-    return [
-        Column("points", [len(each) for each in branches], "points"),
-        Column("folds", [int(each.folds.size) for each in branches], "folds"),
-        Column("lowest_speed", [float(each.angular_speed.min()) for each in branches], "lowest speed (rad/s)"),
-        Column("highest_speed", [float(each.angular_speed.max()) for each in branches], "highest speed (rad/s)"),
-        Column("end", [each.end for each in branches], "ends at"),
-    ]
+        return f"Branches: {len(self) - isolated} {begin}, {isolated} isolated; {self.remark}"
 
 
 def _born(branch: Branch) -> str:
-    return "rest" if branch.birth == "rest" else "isolated" if branch.mode is None else str(branch.mode)
+    isolated = branch.mode is None
+    return "rest" if getattr(branch, "birth", "") == "rest" else "isolated" if isolated else str(branch.mode)
 
 
-def _first_height(of: Sequence[Branch] | Branches) -> float:
-    """The conical height of the slowest mode; if a rig has none, the greatest height of a branch."""
-    one = of if isinstance(of, Branches) else of[0]
-    system = one.system
-    if isinstance(system, Rig):
-        modes = _core.rig_modes(system._under(one.gravity), 1, 1, None, None, None, False, one.gravity)
-        heights = modes.conical_height[modes.direction == (one.direction if modes.has_momentum else 1)]
-        return float(heights[0]) if heights.size else max(float(each.conical_height.max()) for each in of)
-    if isinstance(system, Cord):
-        return float(_core.cord_modes(system._compiled, 1, 1, None, None, None).conical_height[0])
-    found = _core.modes(system._compiled, 1, 1, None, None, None, False, "double", "auto")
-    return float(found.conical_height[0])
+def branch_made(found: Any, system: Any, gravity: float, direction: int) -> Branch:
+    """The branch from a compiled one; of a held system from the shapes at its points."""
+    given: dict[str, Any] = {"system": system, "gravity": gravity, "direction": direction}
+    if not hasattr(found, "shapes"):
+        return Branch._made(found, _shapes=None, **given)
+    shapes, parts = found.shapes, [name for name, field in SteadyShape._fields.items() if field.part]
+    rows = {name: stacked(_each(shapes, name)) for name in parts if hasattr(shapes[0], name.strip("_"))}
+    height = rows["conical_height"]
+    per = system._force(gravity) / height
+    for name in (name for name in FORCES if name in rows):
+        each = rows[name]
+        if isinstance(each, tuple):
+            rows[name] = tuple(factor * row for factor, row in zip(per, each, strict=True))
+        else:
+            rows[name] = per.reshape(-1, *(1,) * (each.ndim - 1)) * each
+    rows.setdefault("proved", np.zeros(len(height), bool))  # estimated for cords
+    energy = {"effective_energy": rows["effective_energy"]} if "effective_energy" in rows else {}
+    return Branch._made(
+        None,
+        **given,
+        **energy,
+        mode=found.mode,
+        end=found.end,
+        folds=np.array(found.folds, int),
+        conical_height=height,
+        lowest_inclination=np.array([row[0] for row in rows["inclination"]]),
+        largest_offset=np.array([np.abs(row).max() for row in rows["offset"]]),
+        top_tension=np.array([row[-1] for row in rows["tension"]]),
+        moment_of_inertia=rows["moment_of_inertia"],
+        half_waves=rows["half_waves"],
+        _shapes=rows,
+    )
+
+
+def _each(shapes: list[Any], name: str) -> list[Any]:
+    values = [getattr(shape, name.strip("_")) for shape in shapes]
+    return [np.ravel(value) for value in values] if name == "_path" else values
+
+
+def branches_made(found: Any, system: Any, gravity: float, direction: int) -> Branches:
+    """The list of compiled branches."""
+    items = tuple(branch_made(each, system, gravity, direction) for each in found.branches)
+    return Branches._made(found, _items=items, system=system, gravity=gravity, direction=direction)

@@ -7,15 +7,24 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..systems.numbers import Floats
+from ..systems.numbers import Floats, Whole
 from .base import Field, Result
-from .sheet import Column, Sheet
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-class ForceDiagram(Result):
+def _component(name: str, k: int) -> Field[Floats]:
+    """A column of the table of vectors."""
+
+    def compute(diagram: ForceDiagram) -> Floats:
+        vectors: Floats = getattr(diagram, name)
+        return vectors[:, k]
+
+    return Field(f"Component {'xz'[k]} of `{name}`.", compute, heading=f"{name} {'xz'[k]}")
+
+
+class ForceDiagram(Result, row="link", title="ForceDiagram: {_links} links, conical height {_height}"):
     """The graphical construction of a steady shape as data: links lowest first, pins free end first.
 
     `SteadyShape.force_diagram` returns it. Points are rows ``(x from the axis, z upwards)``. The vertices of the
@@ -31,32 +40,38 @@ class ForceDiagram(Result):
     """
 
     __slots__ = ()
+    link: Field[Whole] = Field("Numbers of the links.", lambda d: np.arange(len(d.ray)), heading="link")
     pin: Field[Floats] = Field(
-        "Vertices of the funicular polygon, shape (N + 1, 2); the support, at (0, 0), is the last.", part=True
+        "Vertices of the funicular polygon, shape (N + 1, 2); the support, at (0, 0), is the last.", fact=True
     )
     load: Field[Floats] = Field(
-        "Load on each pin without the support, shape (N, 2): centrifugal force outwards, weight (negative).", part=True
+        "Load on each pin without the support, shape (N, 2): centrifugal force outwards, weight (negative)."
     )
     ray: Field[Floats] = Field(
-        "Vector from the pole to ``Q_m``, shape (N, 2): parallel to link m, the side between pins m - 1 and m.", part=True
+        "Vector from the pole to ``Q_m``, shape (N, 2): parallel to link m, the side between pins m - 1 and m."
     )
     reaction: Field[Floats] = Field(
-        "Reaction at the upper pin of each link on the chain below, shape (N, 2); for point masses the ray.", part=True
+        "Reaction at the upper pin of each link on the chain below, shape (N, 2); for point masses the ray."
     )
+    load_x, load_z = _component("load", 0), _component("load", 1)
+    ray_x, ray_z = _component("ray", 0), _component("ray", 1)
+    reaction_x, reaction_z = _component("reaction", 0), _component("reaction", 1)
     lifted: Field[Floats] = Field(
-        "Place where the line of each load from the pole meets the horizontal line ``conical_height`` below it, shape (N,). "
-        "For point masses these are their offsets: P lifted vertically onto that line.",
-        part=True,
+        "Place where the line of each load from the pole meets the horizontal line ``conical_height`` below it, shape "
+        "(N,). For point masses these are their offsets: P lifted vertically onto that line.",
+        heading="lifted",
     )
     centre_of_gravity: Field[Floats] = Field(
-        "Centre of gravity ``G_m`` of link m and all links below, shape (N, 2). ``K_m`` lies on the axis, ``conical_height`` "
-        "higher. ``G_m K_m`` is parallel to the reaction, that is, to the thread above a point mass.",
-        part=True,
+        "Centre of gravity ``G_m`` of link m and all links below, shape (N, 2). ``K_m`` lies on the axis, "
+        "``conical_height`` higher. ``G_m K_m`` is parallel to the reaction, that is, to the thread above a point "
+        "mass.",
+        fact=True,
     )
     crossing: Field[Floats] = Field(
-        "Height of ``C_m``, at which the line of link m meets the axis, shape (N,); infinite if they are parallel.", part=True
+        "Height of ``C_m``, at which the line of link m meets the axis, shape (N,); infinite if they are parallel.",
+        heading="crossing",
     )
-    conical_height: Field[float] = Field("Conical height of the speed: the distances ON and HK.", part=True)
+    conical_height: Field[float] = Field("Conical height of the speed: the distances ON and HK.", fact=True)
 
     def plot(self, axes: tuple[Axes, Axes] | None = None) -> tuple[Axes, Axes]:
         """Draw the shape and its force diagram side by side, with the letters of Fig. 3 of the paper.
@@ -89,11 +104,10 @@ class ForceDiagram(Result):
 
         return plot_force_diagram(self, axes)
 
-    def _sheet(self, brief: bool = False) -> Sheet:
-        columns = [Column("link", np.arange(len(self.ray)), "link")]
-        for name in ("load", "ray", "reaction"):
-            values = getattr(self, name)
-            columns += [Column(f"{name}_{axis}", values[:, k], f"{name} {axis}") for k, axis in enumerate("xz")]
-        columns += [Column("lifted", self.lifted, "lifted"), Column("crossing", self.crossing, "crossing")]
-        facts = {"conical_height": self.conical_height, "pin": self.pin, "centre_of_gravity": self.centre_of_gravity}
-        return Sheet("link", f"ForceDiagram: {len(self.ray)} links, conical height {self.conical_height:.6g}", columns, facts)
+    @property
+    def _links(self) -> int:
+        return len(self.ray)
+
+    @property
+    def _height(self) -> str:
+        return f"{self.conical_height:.6g}"

@@ -32,11 +32,11 @@ class Explanation(Result):
     """
 
     __slots__ = ()
-    estimates: Field[tuple[tuple[Any, ...], ...]] = Field("The rows as plain tuples.", part=True)
+    estimates: Field[tuple[tuple[Any, ...], ...]] = Field("The rows as plain tuples.")
     meets_tolerance: Field[bool] = Field(
-        "Whether the chosen method is within `rtol`; if not, no method is, and it is the most accurate one.", part=True
+        "Whether the chosen method is within `rtol`; if not, no method is, and it is the most accurate one."
     )
-    rtol: Field[float] = Field("Requested relative tolerance; 0 for the best possible.", part=True)
+    rtol: Field[float] = Field("Requested relative tolerance; 0 for the best possible.")
 
     @property
     def rows(self) -> tuple[MethodEstimate, ...]:

@@ -9,12 +9,11 @@ import numpy as np
 
 from ..systems.numbers import Floats, Whole, shown
 from .base import Field, Result
-from .sheet import Column, Sheet
 
 _MOST_LINES = 8
 
 
-class Fitted(Result):
+class Fitted(Result, row="datum", title="Fitted: {summary}", notes=("{_lines}",)):
     """Values of p data that best fit m measured speeds, with uncertainties; returned by `fit`.
 
     Examples
@@ -39,59 +38,66 @@ class Fitted(Result):
     status: Field[str] = Field(
         "``'success'``; ``'undetermined'`` if the measurements do not determine some data, see `undetermined`; "
         "``'not_converged'`` if the search stopped before the minimum of the sum of squares.",
-        part=True,
+        fact=True,
     )
-    vary: Field[tuple[str, ...]] = Field("Paths of the data, as given.", part=True)
-    system: Field[Any] = Field("The system with the new values.", part=True)
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
+    vary: Field[tuple[str, ...]] = Field("Paths of the data, as given.", heading="datum", column="datum", left=True)
+    system: Field[Any] = Field("The system with the new values.")
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", fact=True)
     value: Field[Floats] = Field(
         "Values of the data, shape (p,); ``fitted[path]`` is one of them. Many other values of the data in `undetermined` fit "
         "equally well.",
-        part=True,
+        heading="value",
     )
     standard_uncertainty: Field[Floats] = Field(
         "Standard uncertainty of each value, shape (p,): the root of its variance. NaN if the covariance is NaN.",
         lambda f: np.sqrt(f.covariance.diagonal()),
+        heading="standard uncertainty",
     )
+    present: Field[Floats] = Field("Values of the data before the fit, shape (p,).", heading="before")
     covariance: Field[Floats] = Field(
         "Covariance of the values, shape (p, p), to first order. NaN for data in `undetermined`; NaN for all data if no "
         "uncertainties were given and there are no more measurements than data to estimate them.",
-        part=True,
+        axes=("other_datum",),
     )
     correlation: Field[Floats] = Field(
         "Covariance divided by both standard uncertainties, shape (p, p).",
         lambda f: _over(f.covariance, np.outer(f.standard_uncertainty, f.standard_uncertainty)),
+        axes=("other_datum",),
     )
-    present: Field[Floats] = Field("Values of the data before the fit, shape (p,).", part=True)
-    number: Field[Whole] = Field("Numbers of the measured modes, shape (m,); negative for backward modes of a rig.", part=True)
-    measured: Field[Floats] = Field("Measured speeds, rad/s, shape (m,); negative for backward modes.", part=True)
+    number: Field[Whole] = Field("Numbers of the measured modes, shape (m,); negative for backward modes of a rig.", fact=True)
+    measured: Field[Floats] = Field("Measured speeds, rad/s, shape (m,); negative for backward modes.", fact=True)
     measured_uncertainty: Field[Floats] = Field(
         "Standard uncertainties of the measured speeds, rad/s, shape (m,): as given, else one relative uncertainty for all "
         "speeds, estimated from the residuals; NaN if there are no more measurements than data.",
-        part=True,
+        fact=True,
     )
-    computed: Field[Floats] = Field("Speeds of the modes of the new system, rad/s, shape (m,).", part=True)
+    computed: Field[Floats] = Field("Speeds of the modes of the new system, rad/s, shape (m,).", fact=True)
     residual: Field[Floats] = Field(
-        "Measured speeds minus computed ones, rad/s, shape (m,).", lambda f: f.measured - f.computed
+        "Measured speeds minus computed ones, rad/s, shape (m,).", lambda f: f.measured - f.computed,
+        fact=True,
     )
     normalized_residual: Field[Floats] = Field(
         "Residuals divided by the uncertainties of the measured speeds, shape (m,).",
         lambda f: _over(f.residual, f.measured_uncertainty),
+        fact=True,
     )
     chi_square: Field[float | None] = Field(
         "Sum of squares of the normalized residuals; about `degrees_of_freedom` if model and uncertainties are correct. "
         "None if no uncertainties were given.",
-        part=True,
+        fact=True,
     )
     degrees_of_freedom: Field[int] = Field(
         "Number of measurements minus number of data, m - p, plus the number of undetermined combinations of data.",
-        part=True,
+        fact=True,
     )
     undetermined: Field[tuple[tuple[str, ...], ...]] = Field(
         "Groups of paths that the measurements do not determine. A single path has no effect on the measured speeds; the "
         "effects of several paths cancel.",
-        part=True,
+        fact=True,
     )
+
+    description: Field[str] = Field("The new system in words.", lambda f: f.system.describe(), fact=True, column="system")
+    summary: Field[str] = Field("How many data were fitted to how many speeds, in words.", lambda f: f._words())
 
     def __getitem__(self, path: str) -> float:
         """The value of a datum by its path."""
@@ -99,7 +105,8 @@ class Fitted(Result):
             raise KeyError(f"path must be one of {', '.join(self.vary)}, got {shown(path)}")
         return float(self.value[self.vary.index(path)])
 
-    def _lines(self) -> list[str]:
+    @property
+    def _lines(self) -> str:
         """The lines below the table: undetermined data, and each measurement."""
         lines = []
         for group in self.undetermined:
@@ -119,28 +126,14 @@ class Fitted(Result):
             line = f"mode {number}: measured {measured:#.6g} rad/s, computed {computed:#.6g}"
             off = round(float(self.normalized_residual[k]), 1) + 0.0
             lines.append(f"{line}, residual {off:+.1f} standard uncertainties" if np.isfinite(off) else line)
-        return lines
+        return "\n".join(lines)
 
-    def _sheet(self, brief: bool = False) -> Sheet:
-        columns = [
-            Column("datum", list(self.vary), "datum", left=True),
-            Column("value", self.value, "value"),
-            Column("standard_uncertainty", self.standard_uncertainty, "standard uncertainty"),
-            Column("present", self.present, "before"),
-            Column("covariance", self.covariance, axes=("other_datum",)),
-            Column("correlation", self.correlation, axes=("other_datum",)),
-        ]
-        names = ["status", "gravity", "number", "measured", "measured_uncertainty", "computed", "residual"]
-        names += ["normalized_residual", "chi_square", "degrees_of_freedom", "undetermined"]
-        facts = {name: getattr(self, name) for name in names} | {"system": self.system.describe()}
-        chi = "" if self.chi_square is None else f"; chi-square {round(self.chi_square, 9):.3g} with {self._freedom()}"
+    def _words(self) -> str:
+        free = f"{self.degrees_of_freedom} degree{'s' * (self.degrees_of_freedom != 1)} of freedom"
+        chi = "" if self.chi_square is None else f"; chi-square {round(self.chi_square, 9):.3g} with {free}"
         p, m = len(self.vary), len(self.number)
         what = f"{p} {'datum' if p == 1 else 'data'} to {m} speed{'s' * (m > 1)}"
-        heading = f"Fitted: {what}, {self.status.replace('_', ' ')}{chi}"
-        return Sheet("datum", heading, columns, facts, self._lines(), self.status == "success")
-
-    def _freedom(self) -> str:
-        return f"{self.degrees_of_freedom} degree{'s' * (self.degrees_of_freedom != 1)} of freedom"
+        return f"{what}, {self.status.replace('_', ' ')}{chi}"
 
 
 def _over(one: Floats, other: Floats) -> Floats:

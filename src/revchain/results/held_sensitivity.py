@@ -9,55 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..systems.numbers import Floats, refuse_beyond_memory
-from .base import Field
-from .sensitivity import DATA
-from .shape_sensitivity import (
-    PARTS,
-    Balance,
-    Change,
-    DerivativesByLink,
-    ShapeSensitivity,
-    by_weight,
-    changes_of,
-    loads_of,
-    named,
-    reach_of_pins,
-    solved,
-)
+from .sensitivity import Sensitivity
+from .shape_sensitivity import PARTS, Balance, Change, by_weight, changes_of, loads_of, named, of_shape, reach_of_pins, solved
 
 if TYPE_CHECKING:
-    from .bent import HeldShape
+    from .shapes import SteadyShape
 
 OF_ENDS = tuple(f"{end}_{name}" for end in ("lower", "upper") for name in ("radius", "stiffness", "mass"))
-
-
-class HeldShapeDerivatives(DerivativesByLink):
-    """Derivatives of some numbers of a shape held at both ends, one row for each number; see `ShapeSensitivity`.
-
-    The datum given for the ends is constant: the `span`, or the `tension` at the upper end. The derivatives with respect
-    to the other one are NaN.
-    """
-
-    __slots__ = ()
-    span: Field[Floats] = Field("Derivatives with respect to the span, per m, shape (M,).", part=True)
-    tension: Field[Floats] = Field("Derivatives with respect to the given tension, per N, shape (M,).", part=True)
-    lower_radius: Field[Floats] = Field("Derivatives with respect to the radius of the lower end, shape (M,).", part=True)
-    lower_stiffness: Field[Floats] = Field(
-        "Derivatives with respect to the stiffness of the lower end, per N/m, shape (M,); 0 if it is firm.", part=True
-    )
-    lower_mass: Field[Floats] = Field(
-        "Derivatives with respect to the mass on the spring of the lower end, shape (M,); 0 if it is firm.", part=True
-    )
-    upper_radius: Field[Floats] = Field("Derivatives with respect to the radius of the upper end, shape (M,).", part=True)
-    upper_stiffness: Field[Floats] = Field(
-        "Derivatives with respect to the stiffness of the upper end, per N/m, shape (M,); 0 if it is firm.", part=True
-    )
-    upper_mass: Field[Floats] = Field(
-        "Derivatives with respect to the mass on the spring of the upper end, shape (M,); 0 if it is firm.", part=True
-    )
-
-    def _names(self) -> tuple[str, ...]:
-        return ("angular_speed", "span", "tension", *OF_ENDS, *DATA)
 
 
 class _HeldChain:
@@ -75,7 +33,7 @@ class _HeldChain:
     The unknowns are the inclinations, the offset y of the upper end, X and Z.
     """
 
-    def __init__(self, shape: HeldShape) -> None:
+    def __init__(self, shape: SteadyShape) -> None:
         held = shape.system
         chain = held.system
         n = chain.size
@@ -161,11 +119,11 @@ class _HeldChain:
         return loads
 
 
-def held_shape_sensitivity(shape: HeldShape) -> ShapeSensitivity:
-    """See `HeldShape.sensitivity`."""
+def held_shape_sensitivity(shape: SteadyShape) -> Sensitivity:
+    """See `SteadyShape.sensitivity`."""
     chain = _HeldChain(shape)
     at, n = chain.hanging, chain.hanging.size
-    refuse_beyond_memory("revchain.HeldShape.sensitivity", "the number of links", n, 120 * n)
+    refuse_beyond_memory("revchain.SteadyShape.sensitivity", "the number of links", n, 120 * n)
     changes = chain.changes()
     moved = solved(chain.slope(), chain.loads(changes))
 
@@ -189,10 +147,10 @@ def held_shape_sensitivity(shape: HeldShape) -> ShapeSensitivity:
     _hold(shape, found)
     for by in found.values():
         named(by, shape.system.system, ("angular_speed", "span", "tension", *OF_ENDS))
-    return ShapeSensitivity._made(None, **{part: HeldShapeDerivatives._made(None, **found[part]) for part in PARTS})
+    return of_shape(n, [found[part] for part in PARTS])
 
 
-def _hold(shape: HeldShape, found: dict[str, dict[str, Floats]]) -> None:
+def _hold(shape: SteadyShape, found: dict[str, dict[str, Floats]]) -> None:
     """Make the derivatives those at constant tension if the tension was given; mark the other datum of the ends NaN."""
     if shape.system.tension is None:
         for by in found.values():

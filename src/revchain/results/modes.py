@@ -3,37 +3,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable, Iterator
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, Self, cast
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
-from ..systems.chain import Chain
-from ..systems.held import Held
-from ..systems.numbers import Floats, Numbers, Whole, floats, one_positive, refuse_beyond_memory, refuse_where
-from ..systems.rig import Rig
-from .base import Field, Result, UnavailableError
+from ..systems.numbers import Floats, Numbers, Whole, floats, one_positive, place_of, refuse_beyond_memory, refuse_where
+from .base import Field, Result, Row, UnavailableError
 from .moving import Moving
-from .sheet import Column, Sheet
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from .motions import Response
-    from .cord_sensitivity import CordSensitivity, CordUncertainty
-    from .sensitivity import RigSensitivity, RigUncertainty, Sensitivity, Uncertainty
+    from .sensitivity import Sensitivity, Uncertainty
 
 Complex = NDArray[np.complex128]
 TURN = 8 * np.arctan(np.longdouble(1))
 MOST_OFFSETS = 100_000  # largest number of offsets to compute for the nodes of a table
-TURN64 = 2 * np.pi
 SPEED_ROUNDING = 2.1 * 2.0**-52  # rounding of a speed computed from a height
 
 
-class Certificate(Result):
+class Certificate(Result, row="mode", title="Certificate: intervals proved to hold the conical heights"):
     """Intervals that are proved to contain the conical heights, and the counts that prove it.
 
     Exactly ``above_lower[i]`` conical heights of the chain exceed ``lower[i]``, and ``above_upper[i]`` exceed
@@ -57,51 +51,130 @@ class Certificate(Result):
     """
 
     __slots__ = ()
-    number: Field[Whole] = Field("Mode numbers, shape (k,).", part=True)
-    lower: Field[Numbers] = Field("Lower end of each interval, m, shape (k,); 0 if nothing could be proved.", part=True)
-    upper: Field[Numbers] = Field("Upper end of each interval, m, shape (k,); infinite if nothing could be proved.", part=True)
-    above_lower: Field[Whole] = Field("Proved count of the heights above each lower end, shape (k,).", part=True)
-    above_upper: Field[Whole] = Field("Proved count of the heights above each upper end, shape (k,).", part=True)
+    number: Field[Whole] = Field("Mode numbers, shape (k,).", heading="mode", column="mode")
+    lower: Field[Numbers] = Field(
+        "Lower end of each interval, m, shape (k,); 0 if nothing could be proved.", heading="height above", unit="m", digits=17
+    )
+    upper: Field[Numbers] = Field(
+        "Upper end of each interval, m, shape (k,); infinite if nothing could be proved.",
+        heading="height at most",
+        unit="m",
+        digits=17,
+    )
+    above_lower: Field[Whole] = Field(
+        "Proved count of the heights above each lower end, shape (k,).", heading="heights > lower"
+    )
+    above_upper: Field[Whole] = Field(
+        "Proved count of the heights above each upper end, shape (k,).", heading="heights > upper"
+    )
     lower_low: Field[Floats | None] = Field(
-        "Second double of each lower end with ``precision='double-double'``, else None.", part=True
+        "Second double of each lower end with ``precision='double-double'``, else None.", otherwise=lambda c: None
     )
     upper_low: Field[Floats | None] = Field(
-        "Second double of each upper end with ``precision='double-double'``, else None.", part=True
+        "Second double of each upper end with ``precision='double-double'``, else None.", otherwise=lambda c: None
+    )
+    _lower_rest: Field[Floats | None] = Field(
+        "What a double leaves out of each lower end.", lambda c: rest(c.lower, c.lower_low), axes=(), column="lower_low", unit="m"
+    )
+    _upper_rest: Field[Floats | None] = Field(
+        "What a double leaves out of each upper end.", lambda c: rest(c.upper, c.upper_low), axes=(), column="upper_low", unit="m"
     )
 
-    def _sheet(self, brief: bool = False) -> Sheet:
-        columns = [
-            Column("mode", self.number, "mode"),
-            Column("lower", self.lower, "height above (m)", 17),
-            Column("upper", self.upper, "height at most (m)", 17),
-            Column("above_lower", self.above_lower, "heights > lower"),
-            Column("above_upper", self.above_upper, "heights > upper"),
-        ]
-        columns += _rest("lower", self.lower, self.lower_low) + _rest("upper", self.upper, self.upper_low)
-        return Sheet("mode", "Certificate: intervals proved to hold the conical heights", columns)
+
+class OtherModes(Result, row="number", title="{summary}"):
+    """The m solutions of a rig that are not steady motions: negative or complex conical heights, or complex speeds.
+
+    An infinite height (speed 0) belongs to a link without net weight in the fluid, which is at rest in any position.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> stick = rc.Rig(rc.Chain(mass=1.0, length=1.0), inverted=True)
+    >>> rc.modes(stick).other.growth_rate.round(4)
+    array([3.1316])
+    """
+
+    __slots__ = ()
+    number: Field[Whole] = Field("Numbers of the solutions, from 1.", lambda o: np.arange(1, len(o) + 1), axes=())
+    conical_height: Field[Complex] = Field(
+        "Conical heights, m, shape (m,).", heading="height", unit="m", shown=lambda o: [_complex(h) for h in o.conical_height]
+    )
+    angular_speed: Field[Complex] = Field(
+        "Speeds ``n`` with ``n**2 * conical_height = gravity``, rad/s, shape (m,). Offsets vary as ``exp(1j * n * t)``.",
+        axes=(),
+        unit="rad/s",
+    )
+    growth_rate: Field[Floats] = Field(
+        "Size of the imaginary part of each speed, 1/s. Small offsets grow as ``exp(growth_rate * t)``.",
+        heading="growth rate",
+        unit="1/s",
+    )
+    error_bound: Field[Floats] = Field(
+        "Proved bound of the error of each height, relative to its size.", heading="error bound"
+    )
+    summary: Field[str] = Field(
+        "The number of solutions in words.",
+        lambda o: "1 solution that is not a steady motion" if len(o) == 1 else f"{len(o)} solutions that are not steady motions",
+    )
+
+    def __len__(self) -> int:
+        return int(self.conical_height.size)
 
 
-def _speeds(compiled: Callable[[Floats, Floats], Floats], extended: Callable[[Any], Any]) -> Callable[[Modes], Numbers]:
-    """A function of each mode: `compiled` computes it from height and gravity, `extended` from a longdouble speed."""
+def _complex(height: complex) -> str:
+    return f"{height.real:.9g}" if height.imag == 0 else f"{height.real:.6g} {height.imag:+.6g}i"
+
+
+def _of_height(name: str, of_speed: Callable[[Any], Any]) -> Callable[[Modes], Numbers]:
+    """A function of modes: `_core.conical_pendulum_NAME` of the height; of what has another speed, `of_speed` of that."""
+    compiled: Callable[[Floats, Any], Floats] = getattr(_core, f"conical_pendulum_{name}")
 
     def compute(modes: Modes) -> Numbers:
+        if modes.system._kind == "rig":
+            return of_speed(modes.angular_speed)  # type: ignore[no-any-return]
+        height = modes.conical_height
         if modes.precision == "extended":
             with np.errstate(invalid="ignore", divide="ignore"):
-                found: Numbers = extended(np.sqrt(np.longdouble(modes.gravity)) / np.sqrt(modes.conical_height))
-            return found
-        height = modes.conical_height
-        good = height > 0  # the dense references may return others by rounding
-        numbers = compiled(np.where(good, height, 1.0), np.asarray(modes.gravity))
-        return numbers if good.all() else np.where(good, numbers, np.nan)
+                return of_speed(np.sqrt(np.longdouble(modes.gravity)) / np.sqrt(height))  # type: ignore[no-any-return]
+        if not height.size or height[-1] > 0:  # the last is the least
+            return compiled(height, modes.gravity)
+        # The dense references may return others by rounding.
+        return np.where(height > 0, compiled(np.where(height > 0, height, 1.0), modes.gravity), np.nan)
 
     return compute
 
 
-class Modes(Result, Moving):
-    """The modes of a system, slowest first: speeds, shapes, nodes and error bounds of k modes of N links.
+def _nodes(modes: Modes, name: str = "nodes") -> Any:
+    """The places of each mode; of a cord they take memory in proportion to the number of the mode."""
+    if modes.number.size and modes.system._kind.endswith("cord"):
+        refuse_beyond_memory(f"revchain.Modes.{name}", "the number of the last mode", int(modes.number[-1]), 8)
+    return getattr(modes._found(), name)
+
+
+def _vertical_points(modes: Modes) -> Any:
+    modes._require_cord("vertical_points")
+    return _nodes(modes, "vertical_points")
+
+
+def _signed_turn(speed: Any) -> Any:
+    return TURN if speed.dtype == np.longdouble else float(TURN)
+
+
+class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)):
+    """The modes of a system, slowest first: speeds, shapes, nodes and error bounds of k modes.
 
     Heights and bounds are computed at once. Shapes, nodes, residuals and sensitivities are computed when they are first
-    read, then kept. Arrays are read-only. A window may contain no modes (k = 0).
+    read, then stored. Arrays are read-only. A window may contain no modes (k = 0). ``modes[0]`` is a row: one number or
+    array of each field. For a cord held straight at both ends, distances start at its lower end.
+
+    Notes
+    -----
+    Heights of a cord are zeros of Bessel functions, Greenhill (1908), section 4: of ``J0`` for a uniform cord, of ``Jp`` for
+    a density s^p, of a cross product of ``J`` and ``Y`` for a uniform cord with a tip or held at both ends. All others are
+    computed by power series. Accuracy (``error_bound``): 3 ulp, 2 ulp with a tip, 4e-15 by power series. Nodes and vertical
+    points: 5 ulp (uniform), 3 ulp (a power), else 1e-15 of the length. Cost: 0.01 to 15 microseconds for a height in closed
+    form, 1 millisecond for each mode up to the last by power series; that of its height for a node; that of ten slopes for a
+    vertical point with a tip or by power series.
 
     Examples
     --------
@@ -116,76 +189,184 @@ class Modes(Result, Moving):
     >>> m.shape.round(4)
     array([[ 1.    ,  0.4142,  0.    ],
            [ 0.4142, -1.    ,  0.    ]])
-    >>> [nodes.round(4).tolist() for nodes in m.nodes]
+    >>> [mode.nodes.round(4).tolist() for mode in m]
     [[], [0.2929]]
+
+    A gyrostat on a link, ``A n^2 - H n - W h = 0``:
+
+    >>> top = rc.Rig(rc.Chain(mass=1.0, length=1.0), flywheels=rc.Flywheel(momentum=1.5))
+    >>> rc.modes(top).angular_speed.round(4)
+    array([-2.4701,  3.9701])
+
+    A cord, with shapes at any point:
+
+    >>> m = rc.modes(rc.Cord(0.36), 3)
+    >>> m.angular_speed.round(4)
+    array([ 6.2757, 14.4054, 22.583 ])
+    >>> m.along([0.0, 0.18])[1].round(4)
+    array([ 1.    , -0.4017])
+    >>> m.nodes[2].round(4), m.vertical_points[2].round(4)
+    (array([0.0278, 0.1465]), array([0.0706, 0.2366]))
     """
 
     __slots__ = ()
-    system: Field[Any] = Field("The system.", part=True)
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
-    number: Field[Whole] = Field("Mode numbers, shape (k,): the slowest of all modes has number 1.", part=True)
+    system: Field[Any] = Field("The system.")
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", fact=True)
+    number: Field[Whole] = Field(
+        "Mode numbers, shape (k,): the slowest of all modes has number 1. For a rig with flywheels the number among those of "
+        "its direction.",
+        otherwise=lambda m: np.arange(m._found().first, m._found().first + len(m)),
+        heading="mode",
+        column="mode",
+    )
+    direction: Field[Whole] = Field(
+        "Direction of each mode, shape (k,): 1 forward, -1 backward. Without momentum the directions do not differ, and all "
+        "are 1.",
+        otherwise=lambda m: np.ones(len(m), np.int64),
+        axes=(),
+    )
     angular_speed: Field[Numbers] = Field(
-        "Whirl speed of each mode, ``sqrt(gravity / conical_height)``, rad/s, shape (k,). For a hanging chain it is also the "
-        "natural angular frequency of its swing in a plane. longdouble with ``precision='extended'``, else float64.",
-        _speeds(_core.conical_pendulum_angular_speed, lambda speed: speed),
+        "Whirl speed of each mode, ``sqrt(gravity / conical_height)``, rad/s, shape (k,), negative for backward modes. For a "
+        "hanging chain it is also the natural angular frequency of its swing in a plane. longdouble with "
+        "``precision='extended'``, else float64.",
+        otherwise=_of_height("angular_speed", lambda speed: speed),
+        heading="speed",
+        unit="rad/s",
     )
     frequency: Field[Numbers] = Field(
-        "Revolutions per second, Hz, shape (k,).",
-        _speeds(_core.conical_pendulum_revolutions_per_second, lambda speed: speed / TURN),
+        "Revolutions per second, Hz, shape (k,), with the sign of the speed.",
+        _of_height("revolutions_per_second", lambda speed: speed / _signed_turn(speed)),
+        axes=(),
+        unit="Hz",
     )
-    rpm: Field[Numbers] = Field("Revolutions per minute, shape (k,).", lambda m: 60 * m.frequency)
+    rpm: Field[Numbers] = Field(
+        "Revolutions per minute, shape (k,).", lambda m: 60 * m.frequency, heading="speed", unit="rpm"
+    )
     period: Field[Numbers] = Field(
         "Time of one revolution, s, shape (k,).",
-        _speeds(_core.conical_pendulum_period, lambda speed: TURN / speed),
+        _of_height("period", lambda speed: _signed_turn(speed) / np.abs(speed)),
+        heading="period",
+        unit="s",
     )
     speed_error_bound: Field[Floats] = Field(
-        "Bound of the relative error of each angular speed, frequency and period, shape (k,), for the given gravity.",
-        lambda m: _speed_bound(m.error_bound.astype(np.float64)),
+        "Proved bound of the relative error of each angular speed, frequency and period, shape (k,), for the given gravity.",
+        otherwise=lambda m: _speed_bound(m.error_bound.astype(np.float64)),
+        axes=(),
     )
     conical_height: Field[Numbers] = Field(
         "Conical height ``gravity / angular_speed**2`` of each mode, m, shape (k,), descending.",
-        part=True,
+        heading="height",
+        unit="m",
+        digits=9,
     )
     error_bound: Field[Numbers] = Field(
         "Bound of the relative error of each conical height, shape (k,), for the data exactly as stored. It is proved; for "
         "cords it is checked by measurement.",
-        part=True,
+        heading="error bound",
+    )
+    nodes: Field[tuple[Numbers, ...]] = Field(
+        "For each mode, the distances from the free end along the chain at which it crosses the axis, excluding the support.",
+        _nodes,
+        axes=("node",),
+        unit="m",
+        heading=lambda m: f"nodes (m from the {'lower' if m.system._kind.startswith('held') else 'free'} end)",
+        shown=lambda m: _texts(m.nodes),
+    )
+    residual: Field[Numbers | None] = Field(
+        "Residual of each shape, shape (k,): largest unbalanced force at a pin divided by the largest sum of the magnitudes of "
+        "the forces at a pin. None for cords, whose shapes are closed forms or power series.",
+        otherwise=lambda m: None,
+        axes=(),
+    )
+    arc_length: Field[Floats] = Field(
+        "For a cord: distances from the free end of the places of `shape`, m, shape (201,), evenly spaced.",
+        lambda m: np.linspace(0.0, m._require_cord("arc_length").length, 201),
+    )
+    shape: Field[Numbers] = Field(
+        "Offsets of the pins from the axis, shape (k, N + 1), free end first, support last. The largest magnitude of each mode "
+        "is 1, and the free end is positive. For a cord: offsets of the places `arc_length`, shape (k, 201); that of the free "
+        "end is 1. For a cord held at both ends the largest, at the lowest vertical point, is 1.",
+        otherwise=lambda m: m.along(m.arc_length),
+        axes=("pin",),
+    )
+    vertical_points: Field[tuple[Numbers, ...]] = Field(
+        "For a cord: for each mode the distances from the free end at which the cord is vertical, one above each node: the part "
+        "below has its centre of gravity on the axis, section 4 (13), (14) of the paper. For a cord held at both ends: one "
+        "below each node, and one below the upper end.",
+        _vertical_points,
     )
     conical_height_low: Field[Floats | None] = Field(
         "Second double of each height with ``precision='double-double'``, to be added to `conical_height`; `error_bound` then "
         "bounds the error of the sum. Else None.",
-        part=True,
+        otherwise=lambda m: None,
     )
-    shape: Field[Numbers] = Field(
-        "Offsets of the pins from the axis, shape (k, N + 1), free end first, support last. The largest magnitude of "
-        "each mode is 1, and the free end is positive."
-    )
-    residual: Field[Numbers] = Field(
-        "Residual of each shape, shape (k,): largest unbalanced force at a pin divided by the largest sum of the "
-        "magnitudes of the forces at a pin."
-    )
-    nodes: Field[tuple[Numbers, ...]] = Field(
-        "For each mode, the distances from the free end along the chain at which it crosses the axis, excluding the "
-        "support."
+    _rest: Field[Floats | None] = Field(
+        "What a double leaves out of each height.",
+        lambda m: rest(m.conical_height, m.conical_height_low),
+        axes=(),
+        column="conical_height_low",
+        unit="m",
     )
     certificate: Field[Certificate | None] = Field(
-        "The proof of the error bounds with ``certify=True``, else None.",
-        lambda m: _certificate(m.number, m._found().certificate),
+        "The proof of the error bounds with ``certify=True``, else None. For a rig with flywheels its counts are for the "
+        "direction of each mode.",
+        lambda m: _certificate(m),
         part=True,
+        joined=True,
     )
-    method: Field[str] = Field("The method that found the heights.", part=True)
-    status: Field[str] = Field("``'success'`` or ``'tolerance_not_met'``.", part=True)
-    precision: Field[str] = Field("Arithmetic of the result, see `revchain.modes`.", part=True)
-    rtol: Field[float | None] = Field("Requested relative tolerance; None for full accuracy.", part=True)
-    sensitivity: Field[Sensitivity | RigSensitivity] = Field(
-        "Derivatives with respect to each datum of each link. Cost: 2 microseconds per link and mode.",
-        lambda m: _sensitivity(m),
+    method: Field[str] = Field("The method that found the heights.", fact=True)
+    status: Field[str] = Field("``'success'`` or ``'tolerance_not_met'``.", fact=True)
+    precision: Field[str] = Field("Arithmetic of the result, see `revchain.modes`.", lambda m: "double", part=True, fact=True)
+    rtol: Field[float | None] = Field("Requested relative tolerance; None for full accuracy.")
+    complete: Field[bool] = Field(
+        "Whether it is proved that these modes, and for a rig the other solutions, are all that were asked for.",
+        otherwise=lambda m: m.status == "success",
+        fact=True,
     )
+    available: Field[tuple[int | None, int]] = Field(
+        "Number of existing modes, forward and backward; None for the infinitely many of a cord.",
+        otherwise=lambda m: (m.system.mode_count, 0),
+    )
+    has_momentum: Field[bool] = Field(
+        "Whether a flywheel has constant momentum, so that the two directions differ.",
+        otherwise=lambda m: False,
+    )
+    other_available: Field[int] = Field(
+        "Number of solutions that are not steady motions, found by counting; 0 unless a rig has some.",
+        otherwise=lambda m: 0,
+    )
+    other: Field[OtherModes] = Field(
+        "The solutions that are not steady motions, computed when first read. Cost: 1 microsecond per solution and link.",
+        lambda m: _others(m),
+        fact=True,
+    )
+    slack_link: Field[Whole] = Field(
+        "Indices of the links of a rig (0 is the lowest) whose effective tension, ``tension + n * momentum / length``, vanishes "
+        "between 0 and the fastest computed speed of its direction.",
+        otherwise=lambda m: np.empty(0, np.int64),
+        fact=True,
+    )
+    slack_speed: Field[Floats] = Field(
+        "Speeds at which the effective tension of these links vanishes, rad/s, signed, slowest first.",
+        otherwise=lambda m: np.empty(0),
+        fact=True,
+    )
+    sensitivity: Field[Sensitivity] = Field(
+        "Derivatives with respect to each datum. Cost: 2 microseconds per link and mode.", lambda m: _sensitivity(m)
+    )
+    description: Field[str] = Field("The system in words.", lambda m: m.system.describe(), fact=True, column="system")
+    summary: Field[str] = Field("What was found, in words.", lambda m: _summary(m))
 
     def __len__(self) -> int:
         return int(self.conical_height.size)
 
-    def at(self, gravity: float) -> Self:
+    def __getitem__(self, index: int) -> Row:
+        return Row(self, place_of("revchain.Modes", "index", index, len(self)))
+
+    def __iter__(self) -> Iterator[Row]:
+        return (Row(self, index) for index in range(len(self)))
+
+    def with_gravity(self, gravity: float) -> Self:
         """Return the modes at another acceleration of gravity.
 
         Parameters
@@ -208,19 +389,17 @@ class Modes(Result, Moving):
         --------
         >>> import revchain as rc
         >>> m = rc.modes(rc.Chain(weight=1.0, length=2.4525))
-        >>> m.at(gravity=9.81).angular_speed
+        >>> m.with_gravity(9.81).angular_speed
         array([2.])
         """
-        held = isinstance(self.system, Held) and (self.system.by_mass or self.system.weightless)
-        if isinstance(self.system, Rig) or held:
-            what = "a system held by a tension in newtons" if held else "a rig"
+        if (fixed := self.system._fixes_gravity) is not None:
             raise ValueError(
-                f"revchain.{type(self).__name__}.at: {what} has other modes at another gravity; call revchain.modes again"
+                f"revchain.Modes.with_gravity: {fixed} has other modes at another gravity; call revchain.modes again"
             )
-        speeds = ("angular_speed", "frequency", "rpm", "period")
-        kept = {name: value for name, value in dict(self._kept).items() if name not in speeds}
-        kept["gravity"] = one_positive("revchain.Modes.at", "gravity", gravity)
-        return type(self)._made(self._core, **kept)
+        speeds = ("angular_speed", "frequency", "rpm", "period", "summary")
+        known = {name: value for name, value in dict(self.__dict__).items() if name not in ("_core", *speeds)}
+        known["gravity"] = one_positive("revchain.Modes.with_gravity", "gravity", gravity)
+        return type(self)._made(self._core, **known)
 
     def uncertainty(
         self,
@@ -231,17 +410,36 @@ class Modes(Result, Moving):
         centroid: ArrayLike | None = None,
         radius_of_gyration: ArrayLike | None = None,
         length_in_proportion: ArrayLike | None = None,
+        momentum: ArrayLike | None = None,
+        spin: ArrayLike | None = None,
+        displaced_mass: ArrayLike | None = None,
+        added_mass: ArrayLike | None = None,
+        stiffness: float | str | None = None,
+        support_mass: float | str | None = None,
+        tip_mass: float | str | None = None,
+        tip_weight: float | str | None = None,
+        exponent: float | None = None,
+        tension: float | str | None = None,
     ) -> Uncertainty:
         """Return the standard deviations of conical heights and speeds for given standard deviations of the data.
 
         Parameters
         ----------
         mass, weight, length, centroid, radius_of_gyration, length_in_proportion : array_like, optional
-            Standard deviation of the quantity: a number for all links, or shape (N,). Shape (N, N) is a covariance of the
-            links, with variances on its diagonal. Text such as ``"5 %"`` is relative to each link's datum; ``["5 %", 0]`` is
-            for the lowest of two links only. A quantity that is left out is exact. Deviations of different quantities are
-            independent, and so are those of different links without a covariance. See `Sensitivity` for the data that are
-            constant while one changes.
+            Standard deviation of the quantity of the links: a number for all links, or shape (N,). Shape (N, N) is a
+            covariance of the links, with variances on its diagonal. Text such as ``"5 %"`` is relative to each link's datum;
+            ``["5 %", 0]`` is for the lowest of two links only. A quantity that is left out is exact. Deviations of different
+            quantities are independent, and so are those of different links without a covariance. For a cord: one number for
+            the mass or the length of the whole cord.
+        momentum, spin : array_like, optional
+            Those of the flywheels of a rig, in the same forms. Give only one: `spin` if the flywheels were given by spin.
+        displaced_mass, added_mass : array_like, optional
+            Those of the fluid, in the same forms; weights for a rig given by weight.
+        stiffness, support_mass : float or str, optional
+            Standard deviation of the datum of a rig's support.
+        tip_mass, tip_weight, exponent, tension : float or str, optional
+            Standard deviations of the data of a cord: of its tip, of the exponent of its density, of the tension that holds
+            it.
 
         Returns
         -------
@@ -251,13 +449,14 @@ class Modes(Result, Moving):
         Raises
         ------
         ValueError
-            If a deviation is negative or not finite, has another shape, or a covariance is not symmetric; if the chain is
-            held at both ends.
+            If a deviation is negative or not finite, has another shape, or a covariance is not symmetric; if the system has no
+            such datum, or was given by another; if a chain is held at both ends.
 
         Notes
         -----
         The result is to first order: heights are linear in the data. If a derivative is nearly 0, or a deviation is large
-        compared with its datum, sample instead. Cost: that of the sensitivities, 2 microseconds for each link and mode.
+        compared with its datum, sample instead. See `Sensitivity` for the data that are constant while one changes. Cost:
+        that of the sensitivities, 2 microseconds for each link and mode.
 
         Examples
         --------
@@ -266,23 +465,15 @@ class Modes(Result, Moving):
         >>> import revchain as rc
         >>> rc.modes(rc.Chain(mass=1.0, length=2.0)).uncertainty(length_in_proportion="1 %").relative
         array([0.01])
+        >>> rig = rc.Rig(rc.Chain(mass=1.0, length=1.0), support=rc.Support(stiffness=30.0))
+        >>> rc.modes(rig, 1).uncertainty(stiffness="10 %").angular_speed.round(4)
+        array([0.0335])
         """
-        from .sensitivity import uncertainty
+        from .sensitivity import uncertainty_of_modes
 
-        if not isinstance(self.system, Chain):
-            raise ValueError(
-                "revchain.Modes.uncertainty: is for a Chain, a Rig or a Cord, got a chain held at both ends; change the "
-                "datum and call modes again"
-            )
-        given = {
-            "mass": mass,
-            "weight": weight,
-            "length": length,
-            "centroid": centroid,
-            "radius_of_gyration": radius_of_gyration,
-            "length_in_proportion": length_in_proportion,
-        }
-        return uncertainty(self, given)
+        given = {name: value for name, value in locals().items() if name in _DEVIATIONS and value is not None}
+        found: Uncertainty = uncertainty_of_modes(self, given)
+        return found
 
     def plot(
         self, ax: Axes | None = None, modes: Iterable[int] | None = None, *, carried: Response | None = None
@@ -323,407 +514,8 @@ class Modes(Result, Moving):
 
         return plot_modes(self, ax, modes, carried)
 
-    def _again(self) -> Any:
-        if not len(self):
-            none = np.empty((0, self.system.size + 1), self.conical_height.dtype)
-            return SimpleNamespace(shape=none, residual=none[:, 0], nodes=())
-        first, certified = int(self.number[0]), self.certificate is not None
-        if isinstance(self.system, Held):
-            held = cast("_core.Held", self.system._under(self.gravity))
-            return _core.held_modes(held, first, len(self), None, None, self.rtol, certified, None, self.gravity)
-        method = self.method if self.method in _core.METHODS else "auto"
-        return _core.modes(
-            self.system._compiled, first, len(self), None, None, self.rtol, certified, self.precision, method
-        )
-
-    def _which(self) -> str:
-        """Text with the number of modes out of all, or with their numbers if they are not the slowest."""
-        count = getattr(self.system, "mode_count", None)
-        total = "infinitely many" if count is None else f"{count:,}"
-        if len(self) == 0 or self.number[0] == 1:
-            return f"{len(self):,} of {total} mode{'s' * (count != 1)}"
-        if len(self) == 1:
-            return f"mode {self.number[0]:,} of {total}"
-        return f"modes {self.number[0]:,} to {self.number[-1]:,} of {total}"
-
-    def _speed_columns(self) -> list[Column]:
-        return [
-            Column("angular_speed", self.angular_speed, "speed (rad/s)"),
-            Column("frequency", self.frequency),
-            Column("rpm", self.rpm, "speed (rpm)"),
-            Column("period", self.period, "period (s)"),
-            Column("speed_error_bound", self.speed_error_bound),
-            Column("conical_height", self.conical_height, "height (m)", 9),
-            Column("error_bound", self.error_bound, "error bound"),
-        ]
-
-    def _shape_columns(self, brief: bool) -> list[Column]:
-        """Columns of the shapes; with `brief`, nodes only if they are known or cheap."""
-        if brief and "nodes" not in self._kept and self.system.size * len(self) > MOST_OFFSETS:
-            return []
-        nodes = self._node_column()
-        return [nodes] if brief else [nodes, Column("residual", self.residual), Column("shape", self.shape, axes=("pin",))]
-
-    def _node_column(self) -> Column:
-        end = "lower" if isinstance(self.system, Held) else "free"
-        return Column("nodes", self.nodes, f"nodes (m from the {end} end)", axes=("node",), shown=_texts(self.nodes))
-
-    def _heading(self, which: str) -> str:
-        system = repr(self.system)
-        return f"{which} of a {system[0].lower()}{system[1:]}: by {self.method}, {self.status.replace('_', ' ')}"
-
-    def _note(self) -> str:
-        return f"gravity {self.gravity:.6g} m/s^2; error bound: relative, of the conical height"
-
-    def _sheet(self, brief: bool = False) -> Sheet:
-        columns = [Column("mode", self.number, "mode"), *self._speed_columns(), *self._shape_columns(brief)]
-        columns += _rest("conical_height", self.conical_height, self.conical_height_low)
-        if self.certificate is not None:
-            for column in self.certificate._sheet().columns[1:]:
-                columns.append(Column(f"certificate_{column.name}", column.values))
-        return Sheet(
-            "mode",
-            self._heading(self._which()),
-            columns,
-            {name: getattr(self, name) for name in ("gravity", "method", "status", "precision")} | _facts(self.system),
-            [self._note()],
-            self.status == "success",
-        )
-
-
-class OtherModes(Result):
-    """The m solutions of a rig that are not steady motions: negative or complex conical heights, or complex speeds.
-
-    An infinite height (speed 0) belongs to a link without net weight in the fluid, which is at rest in any position.
-
-    Examples
-    --------
-    >>> import revchain as rc
-    >>> stick = rc.Rig(rc.Chain(mass=1.0, length=1.0), inverted=True)
-    >>> rc.modes(stick).other.growth_rate.round(4)
-    array([3.1316])
-    """
-
-    __slots__ = ()
-    conical_height: Field[Complex] = Field("Conical heights, m, shape (m,).", part=True)
-    angular_speed: Field[Complex] = Field(
-        "Speeds ``n`` with ``n**2 * conical_height = gravity``, rad/s, shape (m,). Offsets vary as ``exp(1j * n * t)``.",
-        part=True,
-    )
-    growth_rate: Field[Floats] = Field(
-        "Size of the imaginary part of each speed, 1/s. Small offsets grow as ``exp(growth_rate * t)``.", part=True
-    )
-    error_bound: Field[Floats] = Field("Proved bound of the error of each height, relative to its size.", part=True)
-
-    def __len__(self) -> int:
-        return int(self.conical_height.size)
-
-    def _sheet(self, brief: bool = False) -> Sheet:
-        shown = [f"{h.real:.9g}" if h.imag == 0 else f"{h.real:.6g} {h.imag:+.6g}i" for h in self.conical_height]
-        columns = [
-            Column("number", np.arange(1, len(self) + 1), ""),
-            Column("conical_height", self.conical_height, "height (m)", shown=shown),
-            Column("angular_speed", self.angular_speed),
-            Column("growth_rate", self.growth_rate, "growth rate (1/s)"),
-            Column("error_bound", self.error_bound, "error bound"),
-        ]
-        what = "1 solution that is not a steady motion" if len(self) == 1 else f"{len(self)} solutions that are not steady motions"
-        return Sheet("number", what, columns)
-
-
-class RigModes(Modes):
-    """The modes of a rig, slowest first, of both directions of rotation.
-
-    Examples
-    --------
-    A gyrostat on a link, ``A n^2 - H n - W h = 0``:
-
-    >>> import revchain as rc
-    >>> top = rc.Rig(rc.Chain(mass=1.0, length=1.0), flywheels=rc.Flywheel(momentum=1.5))
-    >>> rc.modes(top).angular_speed.round(4)
-    array([-2.4701,  3.9701])
-    """
-
-    __slots__ = ()
-    number: Field[Whole] = Field("Number of each mode among those of its direction, shape (k,), from 1.", part=True)
-    direction: Field[Whole] = Field(
-        "Direction of each mode, shape (k,): 1 forward, -1 backward. Without momentum the directions do not differ, "
-        "and all are 1.",
-        part=True,
-    )
-    angular_speed: Field[Numbers] = Field(
-        "Whirl speed of each mode, rad/s, shape (k,), negative for backward modes.", part=True
-    )
-    frequency: Field[Numbers] = Field("Revolutions per second, Hz, shape (k,), signed.", lambda m: m.angular_speed / TURN64)
-    period: Field[Numbers] = Field("Time of one revolution, s, shape (k,).", lambda m: TURN64 / np.abs(m.angular_speed))
-    speed_error_bound: Field[Floats] = Field("Proved bound of the relative error of each speed, shape (k,).", part=True)
-    conical_height_low: Field[Floats | None] = Field("Always None: heights are doubles.", lambda m: None)
-    certificate: Field[Certificate | None] = Field(
-        "The proof of the error bounds with ``certify=True``, else None. Its counts are for the direction of each "
-        "mode.",
-        lambda m: _certificate(m.number, m._found().certificate),
-        part=True,
-    )
-    precision: Field[str] = Field("Always ``'double'``.", lambda m: "double")
-    rtol: Field[float | None] = Field(
-        "Requested relative tolerance; None if left out. Rigs have full accuracy.", part=True
-    )
-    available: Field[tuple[int, int]] = Field("Number of existing modes, forward and backward.", part=True)
-    has_momentum: Field[bool] = Field(
-        "Whether a flywheel has constant momentum, so that the two directions differ.", part=True
-    )
-    other_available: Field[int] = Field("Number of solutions that are not steady motions, found by counting.", part=True)
-    other: Field[OtherModes] = Field(
-        "The solutions that are not steady motions, computed when first read. Cost: 1 microsecond per solution and "
-        "link.",
-        lambda m: m._others(),
-    )
-    slack_link: Field[Whole] = Field(
-        "Indices of links (0 is the lowest) whose effective tension, ``tension + n * momentum / length``, vanishes between 0 "
-        "and the fastest computed speed of its direction.",
-        part=True,
-    )
-    slack_speed: Field[Floats] = Field(
-        "Speeds at which the effective tension of these links vanishes, rad/s, signed, slowest first.", part=True
-    )
-    complete: Field[bool] = Field(
-        "Whether the modes and the other solutions are proved to be all solutions.", part=True
-    )
-
-    def uncertainty(
-        self,
-        *,
-        mass: ArrayLike | None = None,
-        weight: ArrayLike | None = None,
-        length: ArrayLike | None = None,
-        centroid: ArrayLike | None = None,
-        radius_of_gyration: ArrayLike | None = None,
-        length_in_proportion: ArrayLike | None = None,
-        momentum: ArrayLike | None = None,
-        spin: ArrayLike | None = None,
-        displaced_mass: ArrayLike | None = None,
-        added_mass: ArrayLike | None = None,
-        stiffness: float | None = None,
-        support_mass: float | None = None,
-    ) -> RigUncertainty:
-        """Return the standard deviations of conical heights and speeds for given standard deviations of the data.
-
-        Parameters
-        ----------
-        mass, weight, length, centroid, radius_of_gyration, length_in_proportion : array_like, optional
-            Standard deviations or a covariance of the links, as in `Modes.uncertainty`.
-        momentum, spin : array_like, optional
-            Those of the flywheels, in the same forms. Give only one: `spin` if the flywheels were given by spin.
-        displaced_mass, added_mass : array_like, optional
-            Those of the fluid, in the same forms; weights for a rig given by weight.
-        stiffness, support_mass : float, optional
-            Standard deviation of the datum of the support, or text such as ``"5 %"``.
-
-        Returns
-        -------
-        RigUncertainty
-            The standard deviations, and the part of each datum in them.
-
-        Raises
-        ------
-        ValueError
-            If a deviation is negative or not finite, has another shape, or a covariance is not symmetric; if `spin` is
-            given for flywheels that were given by momentum.
-
-        Notes
-        -----
-        The result is to first order. See `RigSensitivity` for the data that are constant while one changes. The radius of
-        a support has no effect on the speeds of small oscillations.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> rig = rc.Rig(rc.Chain(mass=1.0, length=1.0), support=rc.Support(stiffness=30.0))
-        >>> rc.modes(rig, 1).uncertainty(stiffness="10 %").angular_speed.round(4)
-        array([0.0335])
-        """
-        from .sensitivity import rig_uncertainty
-
-        given = {
-            "mass": mass,
-            "weight": weight,
-            "length": length,
-            "centroid": centroid,
-            "radius_of_gyration": radius_of_gyration,
-            "length_in_proportion": length_in_proportion,
-            "momentum": momentum,
-            "spin": spin,
-            "displaced_mass": displaced_mass,
-            "added_mass": added_mass,
-            "stiffness": stiffness,
-            "support_mass": support_mass,
-        }
-        return rig_uncertainty(self, given)
-
-    def _again(self) -> Any:
-        if not len(self):
-            return super()._again()
-        first, last = int(self.number.min()), int(self.number.max())
-        each = [self.number[self.direction == way] for way in (1, -1)]
-        kept = [int(n) for numbers in each for n in (numbers.min(initial=last + 1), numbers.size)]
-        rig, certified = self.system._under(self.gravity), self.certificate is not None
-        return _core.rig_modes(
-            rig, first, last - first + 1, None, None, self.rtol, certified, self.gravity, kept=(kept[0], kept[1], kept[2], kept[3])
-        )
-
-    def _others(self) -> OtherModes:
-        known = self._core if isinstance(self._core, _core.RigModes) else None
-        names = ("conical_height", "angular_speed", "growth_rate", "error_bound")
-        found = _core.other_rig_modes(self.system._under(self.gravity), self.gravity, known)
-        return OtherModes._made(None, **dict(zip(names, found, strict=True)))
-
-    def _sheet(self, brief: bool = False) -> Sheet:
-        columns = [
-            Column("mode", self.number, "mode"),
-            Column("direction", self.direction),
-            *self._speed_columns(),
-            *self._shape_columns(brief),
-        ]
-        notes = [self._note()]
-        if self.has_momentum:
-            notes.append("negative speeds: backward, against wheels whose momentum is positive")
-        slack = [f"links[{k}] goes slack at {at:.6g} rad/s" for k, at in zip(self.slack_link, self.slack_speed, strict=True)]
-        notes += slack if len(slack) <= 5 else [*slack[:4], f"{len(slack) - 4} more go slack: slack_link, slack_speed"]
-        others = self.other_available
-        if others:
-            notes.append(f"{others:,} solution{' is not a steady motion' if others == 1 else 's are not steady motions'}: other")
-        if self.certificate is not None:
-            for column in self.certificate._sheet().columns[1:]:
-                columns.append(Column(f"certificate_{column.name}", column.values))
-        total = sum(self.available)
-        return Sheet(
-            "mode",
-            self._heading(f"{len(self):,} of {total:,} mode{'s' * (total != 1)}"),
-            columns,
-            {
-                **{name: getattr(self, name) for name in ("gravity", "method", "status", "complete")},
-                "other": [] if brief else self.other.to_dict()["numbers"],
-                "slack": [
-                    {"link": int(link), "angular_speed": float(at)}
-                    for link, at in zip(self.slack_link, self.slack_speed, strict=True)
-                ],
-                **_facts(self.system),
-            },
-            notes,
-            self.status == "success",
-        )
-
-
-class CordModes(Modes):
-    """The k modes of a cord, slowest first, with shapes at any point.
-
-    For a cord held straight at both ends, distances start at its lower end.
-
-    Notes
-    -----
-    Heights are zeros of Bessel functions, Greenhill (1908), section 4: of ``J0`` for a uniform cord, of ``Jp`` for a density
-    s^p, of a cross product of ``J`` and ``Y`` for a uniform cord with a tip or held at both ends. All others are computed by
-    power series. Accuracy (``error_bound``): 3 ulp, 2 ulp with a tip, 4e-15 by power series. Nodes and vertical points: 5
-    ulp (uniform), 3 ulp (a power), else 1e-15 of the length. Cost: 0.01 to 15 microseconds for a height in closed form, 1
-    millisecond for each mode up to the last by power series; that of its height for a node; that of ten slopes for a
-    vertical point with a tip or by power series. Heights are proportional to the length.
-
-    Examples
-    --------
-    >>> import revchain as rc
-    >>> m = rc.modes(rc.Cord(0.36), 3)
-    >>> m.angular_speed.round(4)
-    array([ 6.2757, 14.4054, 22.583 ])
-    >>> m.offset([0.0, 0.18])[1].round(4)
-    array([ 1.    , -0.4017])
-    >>> m.nodes[2].round(4), m.vertical_points[2].round(4)
-    (array([0.0278, 0.1465]), array([0.0706, 0.2366]))
-    """
-
-    __slots__ = ()
-    number: Field[Whole] = Field(
-        "Mode numbers, shape (k,): the slowest of all modes has number 1.",
-        lambda m: np.arange(m._found().first, m._found().first + len(m._found().conical_height)),
-        part=True,
-    )
-    arc_length: Field[Floats] = Field(
-        "Distances from the free end of the places of `shape`, m, shape (201,), evenly spaced.",
-        lambda m: np.linspace(0.0, m.system.length, 201),
-    )
-    shape: Field[Numbers] = Field(
-        "Offsets of the places `arc_length` from the axis, shape (k, 201); that of the free end is 1. For a cord held at both "
-        "ends the largest, at the lowest vertical point, is 1.",
-        lambda m: m.offset(m.arc_length),
-    )
-    vertical_points: Field[tuple[Numbers, ...]] = Field(
-        "For each mode the distances from the free end at which the cord is vertical, one above each node: the part below "
-        "has its centre of gravity on the axis, section 4 (13), (14) of the paper. For a cord held at both ends: one below "
-        "each node, and one below the upper end.",
-        lambda m: m._points("vertical_points"),
-    )
-    nodes: Field[tuple[Numbers, ...]] = Field(
-        "For each mode the distances from the free end at which it crosses the axis, without the held ends.",
-        lambda m: m._points("nodes"),
-    )
-    residual: Field[Any] = Field("Always None: shapes are closed forms or power series.", lambda m: None)
-    conical_height_low: Field[Floats | None] = Field("Always None: heights are doubles.", lambda m: None)
-    certificate: Field[Certificate | None] = Field("Always None: only chains and rigs have one.", lambda m: None)
-    precision: Field[str] = Field("Always ``'double'``.", lambda m: "double")
-    sensitivity: Field[CordSensitivity] = Field(  # type: ignore[assignment]
-        "Derivatives with respect to length, mass, tip, exponent of the density and tension.", lambda m: _sensitivity(m)
-    )
-
-    def uncertainty(  # type: ignore[override]
-        self,
-        *,
-        mass: float | str | None = None,
-        weight: float | str | None = None,
-        length: float | str | None = None,
-        tip_mass: float | str | None = None,
-        tip_weight: float | str | None = None,
-        exponent: float | None = None,
-        tension: float | str | None = None,
-    ) -> CordUncertainty:
-        """Return the standard deviations of conical heights and speeds for given standard deviations of the data.
-
-        Parameters
-        ----------
-        mass, weight, length, tip_mass, tip_weight, tension : float or str, optional
-            Standard deviation of the datum, or text such as ``"5 %"``, which is relative to the datum. A datum that is left
-            out is exact. Deviations of different data are independent. See `CordSensitivity` for the data that are constant
-            while one changes.
-        exponent : float, optional
-            Standard deviation of the exponent of the density.
-
-        Returns
-        -------
-        CordUncertainty
-            The standard deviations, and the part of each datum in them.
-
-        Raises
-        ------
-        ValueError
-            If a deviation is negative or not finite, or the cord has no such datum: a mass if given by weight, a tension if
-            it hangs, a tip or an exponent if it is held, an exponent if the density is a function.
-
-        Notes
-        -----
-        The result is to first order: heights are linear in the data.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> u = rc.modes(rc.Cord(2.0, mass=0.5, tip_mass=0.1), 2).uncertainty(length="1 %", tip_mass=0.02)
-        >>> u.relative.round(5), u.largest
-        (array([0.01867, 0.04308]), (('tip_mass', 0), ('tip_mass', 0)))
-        """
-        from .cord_sensitivity import cord_uncertainty
-
-        given = {"mass": mass, "weight": weight, "length": length, "tip_mass": tip_mass, "tip_weight": tip_weight}
-        return cord_uncertainty(self, given | {"exponent": exponent, "tension": tension})
-
-    def offset(self, arc_length: ArrayLike) -> Floats:
-        """Return the offsets of all modes at places of the cord.
+    def along(self, arc_length: ArrayLike) -> Floats:
+        """Return the offsets of all modes of a cord at places of the cord.
 
         Parameters
         ----------
@@ -742,33 +534,37 @@ class CordModes(Modes):
         ------
         ValueError
             If a number lies outside the cord.
+        AttributeError
+            If the system is not a cord: offsets are linear between the pins.
 
         Examples
         --------
         >>> import revchain as rc
-        >>> rc.modes(rc.Cord(1.0), 2).offset(0.5).round(6)
+        >>> rc.modes(rc.Cord(1.0), 2).along(0.5).round(6)
         array([ 0.397714, -0.401734])
         """
-        return self._along("offset", arc_length)
+        return self._places("along", "offset", arc_length)
 
     def slope(self, arc_length: ArrayLike) -> Floats:
-        """Return the slopes ``d offset / d arc_length`` of all modes at places of the cord.
+        """Return the slopes ``d offset / d arc_length`` of all modes of a cord at places of the cord.
 
         Parameters
         ----------
         arc_length : array_like
-            Distances from the free end, as in `offset`.
+            Distances from the free end, as in `along`.
 
         Returns
         -------
         ndarray, shape (k,) or (k, places)
-            Slopes in 1/m of the offsets that `offset` returns; ``-1 / conical_height`` at a free end. Accuracy (relative to
-            the largest slope) and cost are those of `offset`.
+            Slopes in 1/m of the offsets that `along` returns; ``-1 / conical_height`` at a free end. Accuracy (relative to
+            the largest slope) and cost are those of `along`.
 
         Raises
         ------
         ValueError
             If a number lies outside the cord.
+        AttributeError
+            If the system is not a cord.
 
         Notes
         -----
@@ -782,48 +578,78 @@ class CordModes(Modes):
         >>> rc.modes(rc.Cord(1.0), 1).slope([0.0, 0.5, 1.0]).round(4)
         array([[-1.4458, -0.9825, -0.6242]])
         """
-        return self._along("slope", arc_length)
+        return self._places("slope", "slope", arc_length)
 
-    def _along(self, name: str, arc_length: ArrayLike) -> Floats:
-        place = f"revchain.CordModes.{name}"
+    def _places(self, method: str, name: str, arc_length: ArrayLike) -> Floats:
+        cord, place = self._require_cord(method), f"revchain.Modes.{method}"
         arc = floats(place, "arc_length", arc_length)
         if arc.ndim > 1:
             raise ValueError(f"{place}: arc_length must be a number or have one axis, got shape {arc.shape}")
-        wrong = ~((arc >= 0) & (arc <= self.system.length))
-        refuse_where(wrong, arc, f"{place}: arc_length must lie between 0 and the length")
+        refuse_where(~((arc >= 0) & (arc <= cord.length)), arc, f"{place}: arc_length must lie between 0 and the length")
         found: Floats = getattr(self._found(), name)(np.atleast_1d(arc))
         return found.reshape((len(self), *arc.shape))
 
-    def _points(self, name: str) -> Any:
+    def _require_cord(self, name: str) -> Any:
+        if not self.system._kind.endswith("cord"):
+            raise UnavailableError(f"revchain.Modes.{name}: is for a Cord; the pins of links have `shape` and `nodes`")
+        return self.system
+
+    def _from_parts(self) -> Any:
         if len(self):
-            refuse_beyond_memory(f"revchain.CordModes.{name}", "the number of the last mode", int(self.number[-1]), 8)
-        return getattr(self._found(), name)
+            return self.system._modes_again(self)
+        none = np.empty((0, getattr(self.system, "size", 0) + 1), self.conical_height.dtype)
+        if self.system._kind.endswith("cord"):
+            nowhere = lambda arc: np.empty((0, len(arc)))  # noqa: E731
+            return SimpleNamespace(offset=nowhere, slope=nowhere, nodes=(), vertical_points=())
+        return SimpleNamespace(shape=none, residual=none[:, 0], nodes=())
 
-    def _again(self) -> Any:
-        if not len(self):
-            none = lambda arc: np.empty((0, len(arc)))  # noqa: E731
-            return SimpleNamespace(offset=none, slope=none, nodes=(), vertical_points=())
-        first = int(self.number[0])
-        if isinstance(self.system, Held):
-            held = cast("_core.HeldCord", self.system._under(self.gravity))
-            return _core.held_modes(held, first, len(self), None, None, self.rtol, None, self.gravity)
-        return _core.cord_modes(self.system._compiled, first, len(self), None, None, self.rtol)
+    def _left_out(self) -> Collection[str]:
+        slow = "nodes" not in self.__dict__ and self.system.size * self.conical_height.size > MOST_OFFSETS
+        return ("nodes",) if slow else ()
 
-    def _shape_columns(self, brief: bool) -> list[Column]:
-        nodes = self._node_column()
-        return [nodes] if brief else [nodes, Column("shape", self.shape, axes=("place",))]
+    @property
+    def _remarks(self) -> str:
+        lines = [f"gravity {self.gravity:.6g} m/s^2; error bound: relative, of the conical height"]
+        if self.system._kind != "rig":
+            return lines[0]
+        if self.has_momentum:
+            lines.append("negative speeds: backward, against wheels whose momentum is positive")
+        slack = [f"links[{k}] goes slack at {at:.6g} rad/s" for k, at in zip(self.slack_link, self.slack_speed, strict=True)]
+        lines += slack if len(slack) <= 5 else [*slack[:4], f"{len(slack) - 4} more go slack: slack_link, slack_speed"]
+        if others := self.other_available:
+            lines.append(f"{others:,} solution{' is not a steady motion' if others == 1 else 's are not steady motions'}: other")
+        return "\n".join(lines)
+
+
+_DEVIATIONS = frozenset(Modes.uncertainty.__kwdefaults__ or ())
+
+
+def _summary(modes: Modes) -> str:
+    """The number of modes out of all, or their numbers if they are not the slowest; the system, method and status."""
+    forward, backward = modes.available
+    count = None if forward is None else forward + backward
+    total = "infinitely many" if count is None else f"{count:,}"
+    size = modes.number.size
+    if size == 0 or modes.number[0] == 1 or modes.system._kind == "rig":
+        which = f"{size:,} of {total} mode{'s' * (count != 1)}"
+    elif size == 1:
+        which = f"mode {modes.number[0]:,} of {total}"
+    else:
+        which = f"modes {modes.number[0]:,} to {modes.number[-1]:,} of {total}"
+    system = repr(modes.system)
+    return f"{which} of a {system[0].lower()}{system[1:]}: by {modes.method}, {modes.status.replace('_', ' ')}"
 
 
 def _texts(nodes: Iterable[Numbers]) -> list[str]:
     """Text with the number of nodes of each mode, and the places of the first and the last."""
-
-    def text(places: Numbers) -> str:
+    found = []
+    for places in nodes:
         shown = [f"{place:.3g}" if place < 1000 else f"{place:.0f}" for place in places[[0, -1]]] if places.size else []
         if places.size <= 1:
-            return ": ".join([str(places.size), *shown[:1]])
-        return f"{places.size}: {shown[0]} {'…' if places.size > 2 else ''} {shown[1]}".replace("  ", " ")
-
-    return [text(places) for places in nodes]
+            found.append(": ".join([str(places.size), *shown[:1]]))
+        else:
+            found.append(f"{places.size}: {shown[0]} {'… ' if places.size > 2 else ''}{shown[1]}")
+    return found
 
 
 def _speed_bound(error: Floats) -> Floats:
@@ -833,36 +659,35 @@ def _speed_bound(error: Floats) -> Floats:
     return np.asarray(bound * (1 + 1e-9) + SPEED_ROUNDING)
 
 
-def _rest(name: str, values: Numbers, low: Floats | None) -> list[Column]:
-    """The part of the values that a float of a dictionary or a text file cannot hold, as a column; none for doubles."""
-    if low is None and values.dtype == np.longdouble:
-        with np.errstate(invalid="ignore"):
-            low = np.nan_to_num(values - values.astype(np.float64)).astype(np.float64)
-    return [] if low is None else [Column(f"{name}_low", low)]
+def rest(values: Numbers, second: Floats | None) -> Floats | None:
+    """What doubles leave out of numbers, which a file of text cannot hold: a second double, or that of longdouble numbers."""
+    if second is not None or values.dtype != np.longdouble:
+        return second
+    with np.errstate(invalid="ignore"):
+        left: Floats = np.nan_to_num(values - values.astype(np.float64)).astype(np.float64)
+    return left
 
 
-def _certificate(number: Whole, found: tuple[Any, ...] | None) -> Certificate | None:
+def _certificate(modes: Modes) -> Certificate | None:
+    found = getattr(modes._found(), "certificate", None)
+    if found is None:
+        return None
     names = ("lower", "upper", "above_lower", "above_upper", "lower_low", "upper_low")
-    return None if found is None else Certificate._made(None, number=number, **dict(zip(names, found, strict=True)))
+    return Certificate._made(None, number=modes.number, **dict(zip(names, found, strict=True)))
 
 
-def _sensitivity(modes: Modes) -> Any:
-    from . import sensitivity
-
-    if isinstance(modes, RigModes):
-        return sensitivity.of_rig(modes)
-    if isinstance(modes, CordModes):
-        from .cord_sensitivity import of_cord
-
-        return of_cord(modes)
-    if not isinstance(modes.system, Chain):
-        raise UnavailableError(
-            "revchain.Modes.sensitivity: is for a Chain, a Rig or a Cord, got a chain held at both ends; change the datum "
-            "and call modes again"
-        )
-    return sensitivity.of_modes(modes)
+def _others(modes: Modes) -> OtherModes:
+    names = ("conical_height", "angular_speed", "growth_rate", "error_bound")
+    if modes.system._kind != "rig":
+        none = np.empty(0)
+        return OtherModes._made(None, **dict(zip(names, (none + 0j, none + 0j, none, none), strict=True)))
+    known = modes._core if isinstance(modes._core, _core.RigModes) else None
+    found = _core.other_rig_modes(modes.system._under(modes.gravity), modes.gravity, known)
+    return OtherModes._made(None, **dict(zip(names, found, strict=True)))
 
 
-def _facts(system: Any) -> dict[str, Any]:
-    """The data of the system in each dictionary and file."""
-    return {"system": system.describe()}
+def _sensitivity(modes: Modes) -> Sensitivity:
+    from .sensitivity import sensitivity_of_modes
+
+    found: Sensitivity = sensitivity_of_modes(modes)
+    return found

@@ -10,9 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core
-from ..systems.chain import Chain
-from ..systems.numbers import Floats, Whole, boolean
-from ..systems.rig import Rig
+from ..systems.numbers import Floats, Numbers, Whole, boolean
 from .base import Field, Result
 from .moving import Moving
 from .sheet import Column, Sheet, speed_columns
@@ -46,22 +44,20 @@ class Response(Result, Moving):
     """
 
     __slots__ = ()
-    system: Field[Any] = Field("The chain or rig.", part=True)
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
-    angular_speed: Field[Floats] = Field("Speeds of the support, rad/s, shape (...).", part=True)
+    system: Field[Any] = Field("The chain or rig.")
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.")
+    angular_speed: Field[Floats] = Field("Speeds of the support, rad/s, shape (...).")
     frequency: Field[Floats] = Field("Revolutions per second, Hz, shape (...).", lambda r: r.angular_speed / TURN)
     rpm: Field[Floats] = Field("Revolutions per minute, shape (...).", lambda r: r.angular_speed * (60 / TURN))
     period: Field[Floats] = Field("Time of one revolution, s, shape (...).", lambda r: TURN / np.abs(r.angular_speed))
-    conical_height: Field[Floats] = Field("Conical heights ``gravity / angular_speed**2``, m, shape (...).", part=True)
-    support_radius: Field[float] = Field("Radius of the circle, m.", part=True)
+    conical_height: Field[Floats] = Field("Conical heights ``gravity / angular_speed**2``, m, shape (...).")
+    support_radius: Field[float] = Field("Radius of the circle, m.")
     pins: Field[Whole] = Field(
         "Numbers of the pins, from 0 for the free end, shape (P,). If a single number was given, the shape is (), and "
         "`offset` has no dimension for pins.",
-        part=True,
     )
     offset: Field[Floats] = Field(
         "Offsets of the pins from the axis, m, shape (..., P), positive on the side of the support. NaN at a resonance.",
-        part=True,
     )
     amplification: Field[Floats] = Field(
         "Offsets divided by the radius of the circle, shape (..., P).", lambda r: np.asarray(r.offset / r.support_radius)
@@ -69,20 +65,17 @@ class Response(Result, Moving):
     error_bound: Field[Floats] = Field(
         "Proved bound of the error of each offset of the chain, divided by the largest offset, shape (...): half an ulp, more "
         "close to a resonance, infinite at a resonance.",
-        part=True,
     )
     modes_below: Field[Whole] = Field(
         "Number of whirl speeds of the chain with a fixed support that are below the speed, shape (...). A resonance "
         "that cannot be separated from the speed is not counted.",
-        part=True,
     )
-    reversed: Field[Flags] = Field("Whether the free end is on the side opposite to the support, shape (...).", part=True)
-    resonant: Field[Flags] = Field("Whether the speed cannot be separated from a resonance, shape (...).", part=True)
+    reversed: Field[Flags] = Field("Whether the free end is on the side opposite to the support, shape (...).")
+    resonant: Field[Flags] = Field("Whether the speed cannot be separated from a resonance, shape (...).")
     support_force: Field[Floats] = Field(
         "Horizontal outward pull of the chain on the moving support, N or in the unit of the weights, shape (...).",
-        part=True,
     )
-    support_force_error: Field[Floats] = Field("Proved bound of the error of `support_force`, in its unit.", part=True)
+    support_force_error: Field[Floats] = Field("Proved bound of the error of `support_force`, in its unit.")
 
     def plot(self, ax: Axes | None = None, pins: Iterable[int] | None = None, *, resonances: bool = True) -> Axes:
         """Draw the distances of pins from the axis against the speed, on a logarithmic scale.
@@ -123,7 +116,7 @@ class Response(Result, Moving):
         """
         from ..plots.response import plot_response
 
-        marked = boolean("Response.plot", "resonances", resonances) and isinstance(self.system, Chain)
+        marked = boolean("Response.plot", "resonances", resonances) and self.system._kind == "chain"
         return plot_response(self, ax, pins, self._resonances() if marked else [])
 
     def _resonances(self) -> list[float]:
@@ -173,87 +166,150 @@ class Response(Result, Moving):
         return Sheet("speed", heading, columns, facts, notes, spread=True)
 
 
-SWING = (
-    "offset",
-    "velocity",
-    "angular_frequency",
-    "energy",
-    "shape",
-    "cosine",
-    "sine",
-    "start",
-    "projected",
-    "energy_left_out",
-    "truncation_error",
-    "error_bound",
-)
+class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",), spread=True):
+    """Free motion of a chain, rig or cord after release, as a sum of its k modes; returned by `swing`.
 
-
-class Swing(Result, Moving):
-    """Free motion of a chain or rig in a plane after release, as a sum of its modes; returned by `swing`.
+    Offsets are real if the motion is in one plane. Flywheels with momentum turn the plane: offsets are then complex, x + i y,
+    and the modes are whirls of either direction.
 
     Examples
     --------
     >>> import revchain as rc
-    >>> pendulum = rc.swing(rc.Chain(mass=1.0, length=9.80665), [0.1, 0.0], None, [0.0, 3.0])
+    >>> pendulum = rc.swing(rc.Chain(mass=1.0, length=9.80665), [0.0, 3.0], offset=[0.1, 0.0])
     >>> pendulum.offset.round(4)
     array([[ 0.1  ,  0.   ],
            [-0.099,  0.   ]])
+
+    A pendulum with a wheel: the plane of its swing turns.
+
+    >>> import numpy as np
+    >>> wheel = rc.Flywheel(momentum=0.05)
+    >>> found = rc.swing(rc.Rig(rc.Chain(mass=1.0, length=1.0), flywheels=wheel), [0.0, 20.0635], offset=[0.1, 0.0])
+    >>> np.degrees(np.angle(found.offset[:, 0])).round(1)
+    array([ 0. , 28.7])
+    >>> found.angular_frequency.round(4)
+    array([-3.1067,  3.1567])
+
+    A cord:
+
+    >>> found = rc.swing(rc.Cord(1.0), [0.0, 0.5], offset=lambda s: 0.1 * (1 - s))
+    >>> found.offset.shape, round(float(found.offset[1, 50]), 4)
+    ((2, 101), -0.0149)
     """
 
     __slots__ = ()
-    system: Field[Chain | Rig] = Field("The chain of N links, or the rig.", part=True)
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
-    time: Field[Floats] = Field("Times, s, shape (T,).", part=True)
-    offset: Field[Floats] = Field(
-        "Offsets of the pins, m, shape (T, N + 1), free end first, support last: sums of the k modes used.",
-        part=True,
+    system: Field[Any] = Field("The chain or rig of N links, or the cord.")
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", fact=True)
+    time: Field[Floats] = Field("Times, s, shape (T,).", heading="time", unit="s")
+    arc_length: Field[Floats | None] = Field(
+        "For a cord: distance of each place from the free end, m, shape (n,). Else None.", fact=True
     )
-    velocity: Field[Floats] = Field("Velocities of the pins, m/s, shape (T, N + 1).", part=True)
+    free_end_x: Field[Floats] = Field(
+        "Offset of the free end (of a cord: of its lowest place) at each time, m; with momentum along x.",
+        lambda s: s.offset[:, 0].real,
+        heading=lambda s: "free end: x" if s._turns else "free end",
+        unit="m",
+    )
+    free_end_y: Field[Floats | None] = Field(
+        "With momentum: offset of the free end along y, m. Else None.",
+        lambda s: s.offset[:, 0].imag if s._turns else None,
+        heading="y",
+        unit="m",
+    )
+    free_end_velocity: Field[Numbers] = Field(
+        "Velocity of the free end at each time, m/s.",
+        lambda s: s.velocity[:, 0],
+        axes=(),
+        heading=lambda s: "" if s._turns else "free end",
+        unit="m/s",
+    )
+    largest_offset: Field[Floats] = Field(
+        "Largest distance of a pin or place from the axis at each time, m.",
+        lambda s: np.abs(s.offset).max(axis=1),
+        heading="farthest pin",
+        unit="m",
+    )
+    error_bound: Field[Floats | None] = Field(
+        "Proved bound of the rounding error of each offset as a sum of the modes used, m, shape (T,); infinite if a link is "
+        "inverted. It grows with time only after about 1e9 swings. None for a cord.",
+        heading="error bound",
+        unit="m",
+    )
+    offset: Field[Numbers] = Field(
+        "Offsets of the pins, m, shape (T, N + 1), free end first, support last; of a cord at `arc_length`, shape (T, n).",
+        axes=("pin",),
+        unit="m",
+    )
+    velocity: Field[Numbers] = Field("Velocities of the pins or places, m/s, like `offset`.", axes=("pin",), unit="m/s")
     angular_frequency: Field[Floats] = Field(
-        "Natural angular frequency of each mode, rad/s, shape (k,), ascending: the whirl speeds of `modes`.", part=True
+        "Natural angular frequency of each mode, rad/s, shape (k,), slowest first: the whirl speeds of `modes`, negative for "
+        "backward whirls (of links that do not turn about their own axes).",
+        fact=True,
     )
     energy: Field[Floats] = Field(
-        "Energy of each mode, J (weight times length), shape (k,); it is constant.", part=True
+        "Energy of each mode, J (weight times length), shape (k,); it is constant. It is negative if momentum keeps an "
+        "inverted link from falling.",
+        fact=True,
     )
-    shape: Field[Floats] = Field("Shape of each mode, shape (k, N + 1), the largest offset 1.", part=True)
-    cosine: Field[Floats] = Field(
-        "Coefficients, shape (k,), in offset = sum of ``shape * (cosine * cos(angular_frequency t) + sine * sin(...))``.",
-        part=True,
+    shape: Field[Floats] = Field(
+        "Shape of each mode, shape (k, N + 1), the largest offset 1; of a cord, shape (k, n), 1 at the free end."
     )
-    sine: Field[Floats] = Field("Coefficients of the sines, shape (k,), see `cosine`.", part=True)
-    start: Field[Floats] = Field(
-        "Offsets at time 0, shape (N + 1,): those given; pins without inertia move at once to the positions where "
-        "their neighbours pull them.",
-        part=True,
+    amplitude: Field[Complex] = Field(
+        "Coefficients, shape (k,), in offset = sum of ``shape * amplitude * exp(1j * angular_frequency * time)``; without "
+        "momentum the real part of this sum.",
+        fact=True,
     )
-    projected: Field[bool] = Field("Whether `start` differs from the given offsets.", part=True)
+    start: Field[Numbers | None] = Field(
+        "Offsets at time 0 of the pins of a chain or rig without momentum, shape (N + 1,): those given; pins without inertia "
+        "move at once to the positions where their neighbours pull them. Else None.",
+        fact=True,
+    )
+    projected: Field[bool] = Field("Whether `start` differs from the given offsets.", fact=True)
     energy_left_out: Field[float] = Field(
-        "Upper bound on the initial energy that is not in the modes used.", part=True
+        "Energy of the start that is not in the modes used: an upper bound, infinite if a link is inverted; for a cord an "
+        "estimate.",
+        fact=True,
     )
     truncation_error: Field[Floats] = Field(
-        "Proved bound of the effect of the modes not used on each offset at any time, shape (N + 1,).", part=True
+        "Bound of the effect of the modes not used on each offset at any time, m, shape (N + 1,): proved. For a cord an "
+        "estimate, shape (n,): the largest effect of modes k + 1 to 2 k, and of higher ones by extrapolation.",
+        fact=True,
     )
-    error_bound: Field[Floats] = Field(
-        "Proved bound of the rounding error of each offset as a sum of the modes used, shape (T,). It grows with time "
-        "only after about 1e9 swings.",
-        part=True,
-    )
+    summary: Field[str] = Field("The number of modes, and those with most of the energy, in words.", lambda s: s._words())
 
-    def plot(
-        self, ax: Axes | None = None, *, kind: str = "shapes", pins: Iterable[int] = (0,)
-    ) -> Axes:
-        """Draw the chain at the given times, or the offsets of pins against time.
+    @property
+    def _turns(self) -> bool:
+        """Whether momentum turns the plane of the swing."""
+        return self.offset.dtype.kind == "c"
+
+    @property
+    def _remarks(self) -> str:
+        if self.error_bound is None:
+            return f"error: {self.truncation_error.max():.2g} m at most, estimated from the modes left out"
+        plane = "x + i y: the two horizontal directions; " if self._turns else ""
+        return f"{plane}error bound: of every offset as a sum of modes, rounding"
+
+    def _words(self) -> str:
+        what, energy = "whirl" if self._turns else "mode", np.abs(self.energy)
+        share = energy / energy.sum() if energy.sum() > 0 else energy
+        most = np.argsort(share)[::-1][:3]
+        words = ", ".join(f"{100 * share[k]:.3g} % in {what} {k + 1}" for k in most if share[k] > 0)
+        many = f"{energy.size} {what}{'s' * (energy.size != 1)}"
+        return f"{many}; of the energy {words}" if words else f"{many}, at rest"
+
+    def plot(self, ax: Axes | None = None, *, kind: str | None = None, pins: Iterable[int] = (0,)) -> Axes:
+        """Draw the system at the given times, the offsets of pins against time, or their paths seen from above.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
             Axes to draw in; a new figure if left out.
-        kind : {"shapes", "time"}
-            ``"shapes"``: shapes from dark (early) to light (late), with enlarged offsets,
-            at most nine. ``"time"``: offsets against time.
+        kind : {"shapes", "time", "path"}, optional
+            ``"shapes"``: shapes from dark (early) to light (late), with enlarged offsets, at most nine; the usual one of a
+            swing in a plane. ``"time"``: offsets against time, with momentum those along y dashed. ``"path"``: paths seen
+            from above; the usual one, and only, with momentum.
         pins : iterable of int
-            For ``"time"``: numbers of the pins, 0 for the free end.
+            For ``"time"`` and ``"path"``: numbers of the pins, 0 for the free end; for a cord, indices in `arc_length`.
 
         Returns
         -------
@@ -273,167 +329,10 @@ class Swing(Result, Moving):
         >>> import revchain as rc
         >>> chain = rc.Chain.uniform_plummets(10, length=1.0)
         >>> plucked = np.interp(np.arange(11), [0, 5, 10], [0.0, 0.05, 0.0])
-        >>> ax = rc.swing(chain, plucked, None, np.linspace(0, 4, 300)).plot(kind="time", pins=[0, 5])
+        >>> ax = rc.swing(chain, np.linspace(0, 4, 300), offset=plucked).plot(kind="time", pins=[0, 5])
         >>> ax.get_xlabel()
         'time (s)'
         """
         from ..plots.response import plot_swing
 
         return plot_swing(self, ax, kind, pins)
-
-    def _sheet(self, brief: bool = False) -> Sheet:
-        columns = [
-            Column("time", self.time, "time (s)"),
-            Column("free_end_offset", self.offset[:, 0], "free end (m)"),
-            Column("free_end_velocity", self.velocity[:, 0], "free end (m/s)"),
-            Column("largest_offset", np.abs(self.offset).max(axis=1), "farthest pin (m)"),
-            Column("error_bound", self.error_bound, "error bound (m)"),
-            Column("offset", self.offset, axes=("pin",)),
-            Column("velocity", self.velocity, axes=("pin",)),
-        ]
-        names: tuple[str, ...] = ("gravity", "angular_frequency", "energy", "cosine", "sine", "start", "projected", "energy_left_out")
-        names += ("truncation_error",)
-        return Sheet(
-            "time",
-            energy_words(self.energy),
-            columns,
-            {name: getattr(self, name) for name in names},
-            ["error bound: of every offset as a sum of modes, rounding"],
-            spread=True,
-        )
-
-
-WHIRL_SWING = (
-    "offset",
-    "velocity",
-    "angular_speed",
-    "amplitude",
-    "energy",
-    "shape",
-    "energy_left_out",
-    "truncation_error",
-    "error_bound",
-)
-
-
-class WhirlSwing(Result, Moving):
-    """Free motion of a rig with flywheels after release, as a sum of its whirls; returned by `swing`.
-
-    Offsets are complex, x + i y.
-
-    Examples
-    --------
-    A pendulum with a wheel: the plane of its swing turns.
-
-    >>> import numpy as np
-    >>> import revchain as rc
-    >>> wheel = rc.Flywheel(momentum=0.05)
-    >>> found = rc.swing(rc.Rig(rc.Chain(mass=1.0, length=1.0), flywheels=wheel), [0.1, 0.0], None, [0.0, 20.0635])
-    >>> np.degrees(np.angle(found.offset[:, 0])).round(1)
-    array([ 0. , 28.7])
-    >>> found.angular_speed.round(4)
-    array([-3.1067,  3.1567])
-    """
-
-    __slots__ = ()
-    system: Field[Rig] = Field("The rig of N links.", part=True)
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
-    time: Field[Floats] = Field("Times, s, shape (T,).", part=True)
-    offset: Field[Complex] = Field(
-        "Offsets of the pins in the two horizontal directions, x + i y, m, shape (T, N + 1), free end first, support last: "
-        "sums of the k whirls used.",
-        part=True,
-    )
-    velocity: Field[Complex] = Field("Velocities of the pins, m/s, shape (T, N + 1).", part=True)
-    angular_speed: Field[Floats] = Field(
-        "Speed of each whirl, rad/s, negative for backward ones, shape (k,), slowest first: those of `modes` for links that do "
-        "not turn about their own axes.",
-        part=True,
-    )
-    amplitude: Field[Complex] = Field(
-        "Coefficients, shape (k,), in offset = sum of ``shape * amplitude * exp(1j * angular_speed * t)``.", part=True
-    )
-    energy: Field[Floats] = Field(
-        "Energy of each whirl, J (weight times length), shape (k,); it is constant. It is negative if momentum keeps "
-        "an inverted link from falling.",
-        part=True,
-    )
-    shape: Field[Floats] = Field("Shape of each whirl, shape (k, N + 1), the largest offset 1.", part=True)
-    energy_left_out: Field[float] = Field(
-        "Upper bound on the initial energy that is not in the whirls used; infinite if a link is inverted.", part=True
-    )
-    truncation_error: Field[Floats] = Field(
-        "Proved bound of the effect of the whirls not used on each offset at any time, shape (N + 1,).", part=True
-    )
-    error_bound: Field[Floats] = Field(
-        "Proved bound of the rounding error of each offset as a sum of the whirls used, shape (T,); infinite if a link "
-        "is inverted.",
-        part=True,
-    )
-
-    def plot(self, ax: Axes | None = None, *, kind: str = "path", pins: Iterable[int] = (0,)) -> Axes:
-        """Draw the paths of pins seen from above, or their offsets along x and y against time.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw in; a new figure if left out.
-        kind : {"path", "time"}
-            ``"path"``: paths seen from above. ``"time"``: offsets against time, those along y dashed.
-        pins : iterable of int
-            Numbers of the pins, 0 for the free end.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The drawing.
-
-        Raises
-        ------
-        ValueError
-            If `kind` is another word, or there is no such pin.
-        ImportError
-            If matplotlib is not installed; the message says how to install it.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> import revchain as rc
-        >>> rig = rc.Rig(rc.Chain(mass=1.0, length=1.0), flywheels=rc.Flywheel(momentum=0.2))
-        >>> ax = rc.swing(rig, [0.1, 0.0], None, np.linspace(0, 20, 500)).plot()
-        >>> ax.get_xlabel()
-        'x (m)'
-        """
-        from ..plots.response import plot_whirl_swing
-
-        return plot_whirl_swing(self, ax, kind, pins)
-
-    def _sheet(self, brief: bool = False) -> Sheet:
-        end = self.offset[:, 0]
-        columns = [
-            Column("time", self.time, "time (s)"),
-            Column("free_end_x", end.real, "free end: x (m)"),
-            Column("free_end_y", end.imag, "y (m)"),
-            Column("largest_offset", np.abs(self.offset).max(axis=1), "farthest pin (m)"),
-            Column("error_bound", self.error_bound, "error bound (m)"),
-            Column("offset", self.offset, axes=("pin",)),
-            Column("velocity", self.velocity, axes=("pin",)),
-        ]
-        names = ("gravity", "angular_speed", "amplitude", "energy", "energy_left_out", "truncation_error")
-        return Sheet(
-            "time",
-            energy_words(np.abs(self.energy), "whirl"),
-            columns,
-            {name: getattr(self, name) for name in names},
-            ["x + i y: the two level directions; error bound: of every offset as a sum of whirls, rounding"],
-            spread=True,
-        )
-
-
-def energy_words(energy: Floats, what: str = "mode") -> str:
-    """Text with the number of modes of a swing, and the modes with most of its energy."""
-    share = energy / energy.sum() if energy.sum() > 0 else energy
-    most = np.argsort(share)[::-1][:3]
-    words = ", ".join(f"{100 * share[k]:.3g} % in {what} {k + 1}" for k in most if share[k] > 0)
-    many = f"{energy.size} {what}{'s' * (energy.size != 1)}"
-    return f"{many}; of the energy {words}" if words else f"{many}, at rest"

@@ -1,93 +1,72 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sensitivity and uncertainty of the conical heights and speeds of a chain or a rig."""
+"""Sensitivity of speeds and shapes to the data of a system, and the uncertainty of speeds that follows from it."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from .. import _core
-from ..systems.chain import checked, like
+from ..systems.chain import like
 from ..systems.numbers import Floats, Whole, floats, refuse_where, shown
 from ..systems.units import unpacked
-from .base import Field, Result
+from .base import Field, Result, UnavailableError
 from .sheet import Column, Sheet
 
 if TYPE_CHECKING:
     from ..systems.rig import Rig
-    from .modes import Modes, RigModes
-
+    from .modes import Modes
 
 DATA = ("mass", *_core.DATA[1:])
+OF_RIGS = ("momentum", "spin", "displaced_mass", "added_mass", "stiffness", "support_mass")
+OF_CORDS = ("length", "mass", "tip_mass", "exponent", "tension")
 
 
-class _ByDatum(Result):
-    """One array for each datum of a link."""
+class Sensitivity(Result):
+    """Derivatives of some numbers with respect to each datum of a system, all other data constant.
 
-    __slots__ = ()
-    _known: ClassVar[tuple[str, ...]] = DATA
-    number: Field[Whole] = Field("Mode numbers, shape (k,).", part=True)
-
-    def __getitem__(self, quantity: str) -> Floats:
-        """The array of a quantity by its name."""
-        if quantity not in self._known:
-            raise KeyError(f"quantity must be one of {', '.join(self._known)}, got {shown(quantity)}")
-        return getattr(self, quantity)  # type: ignore[no-any-return]
-
-    def _columns(self) -> list[Column]:
-        return [Column("mode", self.number, "mode"), *datum_columns(self, self._known)]
-
-
-def datum_columns(result: Result, names: tuple[str, ...]) -> list[Column]:
-    """A column for each field; a field with a number for each link shows that of the lowest link."""
-    columns = []
-    for name in names:
-        values = getattr(result, name)
-        of_links = {"axes": ("link",), "shown": values[:, 0]} if values.ndim == 2 else {}
-        columns.append(Column(name, values, f"{name} of links[0]" if of_links else name, **of_links))
-    return columns
-
-
-class Derivatives(_ByDatum):
-    """Numbers for each mode, link and datum of the link.
-
-    Examples
-    --------
-    >>> import revchain as rc
-    >>> relative = rc.modes(rc.Chain(weight=[1.0, 3.0], length=1.0)).sensitivity.relative
-    >>> relative.length_in_proportion.sum(axis=1).round(12)
-    array([1., 1.])
-    """
-
-    __slots__ = ()
-    mass: Field[Floats] = Field("Numbers for the masses, shape (k, N), links lowest first; see `Sensitivity.mass`.", part=True)
-    length: Field[Floats] = Field("Numbers for the lengths, shape (k, N); see `Sensitivity.length`.", part=True)
-    centroid: Field[Floats] = Field("Numbers for the centroids, shape (k, N); see `Sensitivity.centroid`.", part=True)
-    radius_of_gyration: Field[Floats] = Field(
-        "Numbers for the radii of gyration, shape (k, N); see `Sensitivity.radius_of_gyration`.", part=True
-    )
-    length_in_proportion: Field[Floats] = Field(
-        "Numbers for lengths in proportion, shape (k, N); see `Sensitivity.length_in_proportion`.", part=True
-    )
-
-    def _sheet(self, brief: bool = False) -> Sheet:
-        return Sheet("mode", "Values by datum; the lowest link is shown", self._columns())
-
-
-class Sensitivity(_ByDatum):
-    """Derivatives of the conical heights of k modes with respect to the data of N links.
-
-    All other data are constant.
+    ``s.mass`` and ``s["mass"]`` are arrays by a datum of the links, shape (R, N), links lowest first, or by another datum,
+    shape (R,), for R numbers: the conical heights of the modes of a chain or cord, the whirl speeds of the modes of a rig, or
+    inclinations, offsets and tensions of a steady shape. ``s.data`` lists the data. For a system given by weight, data with
+    "mass" in their names are weights. The derivatives of speeds follow from those of heights by
+    ``-angular_speed / (2 * conical_height)``.
 
     Notes
     -----
-    Method: ``(y' dM y - height y' dK y) / (y' K y)`` in double-double, from the shape y alone. Heights depend on ratios of
-    masses: the relative derivatives of a mode by masses add up to 0. Those by lengths, centroids and radii of gyration add
-    up to 1. Those by lengths in proportion also add up to 1; each is the link's share of the potential energy. Cost: O(N)
-    for each mode.
+    ==============================  =================================================================================
+    datum                           with respect to what
+    ==============================  =================================================================================
+    ``mass``                        mass of a link; of a cord without its tip
+    ``length``                      distance between the pins at constant centre of gravity and radius of gyration: only
+                                    the lower pin moves, and a point mass becomes a body (0 for the lowest link); of a
+                                    cord, whose density keeps its proportions
+    ``centroid``                    distance of the centre of gravity below the upper pin
+    ``radius_of_gyration``          radius of gyration; never negative for heights, 0 if the radius is 0
+    ``length_in_proportion``        a length with which centroid and radius of gyration grow in proportion, as for the
+                                    thread of a point mass or a rod; never negative for heights
+    ``momentum`` ``spin``           angular momentum and spin of a flywheel (0 by spin if given by momentum)
+    ``axial_moment``                moment of inertia of the turning parts of a link about its axis
+    ``displaced_mass``              mass of fluid that a link displaces
+    ``added_mass``                  added mass of a link; 0 in a fluid that turns
+    ``stiffness`` ``support_mass``  stiffness of the support, mass that moves with it; 0 if it is firm
+    ``tip_mass`` ``exponent``       tip of a cord; exponent of its density at constant mass (NaN for a function)
+    ``tension`` ``span``            tension at the upper end; distance of the ends. What was not given is NaN
+    ``angular_speed``               speed of a steady shape
+    ``support_radius``              radius of the support of a steady shape
+    ``lower_radius`` ...            radius, stiffness and mass of the lower and upper end of what is held
+    ==============================  =================================================================================
+
+    The place and size of the displaced fluid and the momentum of the flywheel are constant while a datum of a link changes.
+
+    Laws: the relative derivatives of a height by masses add up to 0, those by lengths, centroids and radii of gyration to 1,
+    and those by lengths in proportion to 1; each of these is the link's share of the potential energy. Method for modes:
+    ``(y' dM y - height y' dK y) / (y' K y)`` in double-double, from the shape y alone, O(N) for each mode. Accuracy: of
+    chains `error_bound`, in most cases half an ulp, proved; of rigs that of the shapes, 1e-14 of the largest; of cords 1e-12
+    of the height divided by the datum. For shapes: implicit function theorem, O(N^3), 20 ms for 200 links; 1e-12 of the
+    largest of a kind, or 1e-13 times `SteadyShape.condition` if that is more. At a fold of a branch they are infinite.
 
     Examples
     --------
@@ -96,45 +75,95 @@ class Sensitivity(_ByDatum):
     >>> s.mass
     array([[ 0.1875, -0.0625],
            [-0.1875,  0.0625]])
-    >>> s.length_in_proportion
-    array([[0.75, 0.75],
-           [0.25, 0.25]])
+    >>> s.relative.length_in_proportion.sum(axis=1).round(12)
+    array([1., 1.])
+
+    A point mass with a flywheel, ``A n^2 - H n - W a = 0`` with ``A = W a^2 / g``:
+
+    >>> wheels = rc.Flywheel(momentum=[0.0, 0.5])
+    >>> m = rc.modes(rc.Rig(rc.Chain(weight=[1.0, 3.0], length=1.0), flywheels=wheels))
+    >>> m.sensitivity.momentum[:, 1].round(3)
+    array([0.55 , 0.26 , 0.746, 1.713])
+
+    The change of speed of a skipping rope for 1 g more, in rad/s:
+
+    >>> m = rc.modes(rc.Held(rc.Cord(2.0, mass=0.2), tension=10.0), 1)
+    >>> (-m.angular_speed / (2 * m.conical_height) * m.sensitivity.mass * 0.001).round(6)
+    array([-0.041553])
+
+    The change of the offset of the free end of a steady shape for each rad/s more:
+
+    >>> shape = rc.steady_shapes(rc.Chain(mass=[1.0, 3.0], length=1.0), angular_speed=4.0)[0]
+    >>> round(float(shape.sensitivity.offset.angular_speed[0]), 4)
+    0.1859
     """
 
     __slots__ = ()
-    mass: Field[Floats] = Field(
-        "d(conical height)/d(mass), m/kg, shape (k, N), links lowest first; for a chain given by weight, with respect to its "
-        "weights.",
-        part=True,
+    of: Field[str] = Field("The quantity that is differentiated, such as ``'conical_height'``.", fact=True)
+    row: Field[str] = Field("What a row is: ``'mode'``, ``'link'`` or ``'pin'``.")
+    number: Field[Whole] = Field("Mode number, or index of the link or pin, of each row.")
+    direction: Field[Whole | None] = Field("Direction of each mode of a rig, 1 forward, -1 backward; else None.")
+    value: Field[dict[str, Any]] = Field(
+        "The arrays by datum. For a steady shape: a `Sensitivity` for each of ``inclination``, ``offset`` and ``tension``."
     )
-    length: Field[Floats] = Field(
-        "Derivative with respect to the distance between the pins, at constant centre of gravity and radius of gyration: only "
-        "the lower pin moves. 0 for the lowest link. A point mass becomes a body.",
-        part=True,
+    error_bound: Field[Sensitivity | None] = Field(
+        "Proved bounds of the absolute errors of the derivatives of the heights of a chain, in the same form; else None."
     )
-    centroid: Field[Floats] = Field(
-        "Derivative with respect to the distance of the centre of gravity below the upper pin.", part=True
+    relative: Field[Sensitivity | None] = Field(
+        "Logarithmic derivatives ``(x / height) d(height)/dx`` of the heights of chains and cords, in the same form; those of "
+        "the speeds are -1/2 times these. Else None."
     )
-    radius_of_gyration: Field[Floats] = Field(
-        "Derivative with respect to the radius of gyration: never negative, 0 if the radius is 0.", part=True
-    )
-    length_in_proportion: Field[Floats] = Field(
-        "Derivative with respect to a length with which centroid and radius of gyration grow in proportion, as for the thread "
-        "of a point mass or a rod. Never negative.",
-        part=True,
-    )
-    error_bound: Field[Derivatives] = Field(
-        "Proved bound of the absolute error of each derivative: in most cases half an ulp.", part=True
-    )
-    relative: Field[Derivatives] = Field(
-        "Logarithmic derivatives ``(x / height) d(height)/dx``. Those of the speeds are -1/2 times these.", part=True
-    )
+
+    @property
+    def data(self) -> tuple[str, ...]:
+        """The names of the data; for a steady shape those of the quantities."""
+        return tuple(self.value)
+
+    def __getitem__(self, datum: str) -> Any:
+        if datum not in self.value:
+            raise KeyError(f"quantity must be one of {', '.join(self.value)}, got {shown(datum)}")
+        return self.value[datum]
+
+    def __getattr__(self, name: str) -> Any:
+        if name[0] == "_" or name in self._fields or name not in self.value:
+            raise AttributeError(f"a sensitivity of {self.of} has no {name!r}; it has {', '.join(self.value)}")
+        return self.value[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.value)
+
+    def __len__(self) -> int:
+        return int(self.number.size)
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self.value]
 
     def _sheet(self, brief: bool = False) -> Sheet:
-        return Sheet("mode", "Derivatives of the conical heights; those for the lowest link are shown", self._columns())
+        columns = [Column(self.row, self.number, self.row)]
+        if self.direction is not None:
+            columns.append(Column("direction", self.direction, "direction"))
+        for name, value in self.value.items():
+            if isinstance(value, Sensitivity):
+                columns += _own(name, value, len(self))
+            elif value.ndim == 2:
+                columns.append(Column(name, value, f"{name} of links[0]", axes=("link",), shown=value[:, 0]))
+            else:
+                columns.append(Column(name, value, name))
+        return Sheet(self.row, f"Derivatives of {self.of}; of what there is for each link, the lowest is shown", columns)
 
 
-class Uncertainty(Result):
+def _own(name: str, part: Sensitivity, links: int) -> list[Column]:
+    """Columns for a shape: by the speed and, for the free end or the middle pin, by each datum of the links."""
+    columns = [Column(f"{name}_by_angular_speed", part.angular_speed[-links:], f"{name} by speed")]
+    if name == "offset":
+        pin = 0 if "support_radius" in part.value else links // 2  # both ends of what is held hardly move
+        for datum, value in part.value.items():
+            if value.ndim == 2:
+                columns.append(Column(f"offset_by_{datum}", value[pin], f"offset of pin {pin} by its {datum}"))
+    return columns
+
+
+class Uncertainty(Result, row="mode", title="Standard deviations"):
     """Standard deviations of the conical heights and speeds of k modes, to first order.
 
     Examples
@@ -146,143 +175,6 @@ class Uncertainty(Result):
     >>> m = rc.modes(rc.Chain(weight=1.0, length=2.4525), gravity=9.81)
     >>> m.uncertainty(length_in_proportion=0.024525).angular_speed.round(12)
     array([0.01])
-    """
-
-    __slots__ = ()
-    number: Field[Whole] = Field("Mode numbers, shape (k,).", part=True)
-    conical_height: Field[Floats] = Field("Standard deviation of each conical height, m, shape (k,).", part=True)
-    relative: Field[Floats] = Field(
-        "Standard deviation of each height divided by the height, shape (k,). For speeds, periods and frequencies it is half "
-        "as much.",
-        part=True,
-    )
-    angular_speed: Field[Floats] = Field(
-        "Standard deviation of each whirl speed, rad/s, shape (k,), for exact gravity.", part=True
-    )
-    frequency: Field[Floats] = Field(
-        "Standard deviation of each frequency, Hz, shape (k,).", lambda u: u.angular_speed / (2 * np.pi)
-    )
-    period: Field[Floats] = Field("Standard deviation of each period, s, shape (k,).", part=True)
-    share: Field[Derivatives] = Field(
-        "Part of each variance that comes from each datum of each link; the parts of a mode add up to 1. With a covariance a "
-        "part may be negative.",
-        part=True,
-    )
-    largest: Field[tuple[tuple[str, int], ...]] = Field(
-        "For each mode the datum that contributes most, and its link, counted from 0.", part=True
-    )
-
-    names: Field[tuple[str, ...] | None] = Field("Names of the links; None if no names were given.", part=True)
-
-    def _most(self, row: int) -> str:
-        datum, link = self.largest[row]
-        if not self.relative[row]:
-            return "nothing"
-        return f"{datum} of {self.names[link] if self.names else f'links[{link}]'}"
-
-    def _sheet(self, brief: bool = False) -> Sheet:
-        columns = [
-            Column("mode", self.number, "mode"),
-            Column("conical_height", self.conical_height, "of the height (m)"),
-            Column("relative", self.relative, "relative, of the height"),
-            Column("angular_speed", self.angular_speed, "of the speed (rad/s)"),
-            Column("period", self.period, "of the period (s)"),
-            Column("largest", [self._most(row) for row in range(len(self.largest))], "largest part from"),
-        ]
-        return Sheet("mode", "Standard deviations", columns)
-
-
-def _data(chain: Any) -> dict[str, Floats]:
-    return {
-        "mass": chain.mass if chain.by_mass else chain.weight,
-        "length": chain.length,
-        "centroid": chain.centroid,
-        "radius_of_gyration": chain.radius_of_gyration,
-        "length_in_proportion": chain.length,
-    }
-
-
-def _part(place: str, text: str) -> float:
-    with suppress(ValueError):
-        return float(text.strip().removesuffix("%")) / 100
-    raise ValueError(f'{place} must be a number, or a part of it such as "5 %", got {shown(text)}')
-
-
-def _parts_of_data(place: str, value: Any, data: Floats) -> list[Any]:
-    """Deviations; those given in percent are multiplied by the data."""
-    of = [data[k] if k < len(data) else 1.0 for k in range(len(value))]
-    return [
-        _part(place, one) * float(datum) if isinstance(one, str) and one.strip().endswith("%") else one
-        for one, datum in zip(value, of, strict=True)
-    ]
-
-
-def of_modes(modes: Modes) -> Sensitivity:
-    """`Modes.sensitivity`."""
-    chain = modes.system
-    first = int(modes.number[0]) if len(modes) else 1
-    heights = modes.conical_height.astype(np.float64)
-    values, bounds = _core.sensitivity(chain._compiled, first, heights)
-    data = _data(chain)
-    named = dict(zip(DATA, values, strict=True))
-    relative = {name: value * (data[name] / heights[:, None]) for name, value in named.items()}
-    return Sensitivity._made(
-        None,
-        number=modes.number,
-        **named,
-        error_bound=_derivatives(modes, bounds),
-        relative=_derivatives(modes, relative.values()),
-    )
-
-
-def _derivatives(modes: Modes, values: Any) -> Derivatives:
-    return Derivatives._made(None, number=modes.number, **dict(zip(DATA, values, strict=True)))
-
-
-def uncertainty(modes: Modes, given: dict[str, ArrayLike | None]) -> Uncertainty:
-    """`Modes.uncertainty`."""
-    place = "revchain.Modes.uncertainty"
-    if given["mass"] is not None or given["weight"] is not None:
-        given["mass"] = like(place, modes.system, given["mass"], given["weight"])
-    data = _data(modes.system)
-    deviations = [None if given[name] is None else _deviations(place, name, given[name], data[name]) for name in DATA]
-    sensitivity: Any = modes.sensitivity
-    heights = modes.conical_height.astype(np.float64)
-    of = [sensitivity[name] for name in DATA]
-    found = checked(place, modes.system.by_mass, _core.uncertainty, heights, of, deviations)
-    height, relative, share, datum, link = found
-    return Uncertainty._made(
-        None,
-        number=modes.number,
-        names=modes.system.names,
-        conical_height=height,
-        relative=relative,
-        angular_speed=0.5 * relative * np.asarray(modes.angular_speed, np.float64),
-        period=0.5 * relative * np.asarray(modes.period, np.float64),
-        share=_derivatives(modes, share),
-        largest=tuple((each.replace("weight", "mass"), k) for each, k in zip(datum, link, strict=True)),
-    )
-
-
-class _ByRigDatum(_ByDatum):
-    """One array for each datum of the links of a rig, and of its support."""
-
-    __slots__ = ()
-    _known = (*DATA, "momentum", "spin", "displaced_mass", "added_mass", "stiffness", "support_mass")
-    number: Field[Whole] = Field("Number of each mode among those of its direction, shape (k,).", part=True)
-    direction: Field[Whole] = Field("Direction of each mode, shape (k,): 1 forward, -1 backward.", part=True)
-
-    def _columns(self) -> list[Column]:
-        mode, *columns = super()._columns()
-        return [mode, Column("direction", self.direction, "direction"), *columns]
-
-
-class RigDerivatives(_ByRigDatum):
-    """Numbers for each mode, link and datum of a rig.
-
-    Examples
-    --------
-    >>> import revchain as rc
     >>> rig = rc.Rig(rc.Chain(mass=1.0, length=1.0), support=rc.Support(stiffness=30.0))
     >>> share = rc.modes(rig, 1).uncertainty(stiffness="10 %", length_in_proportion="1 %").share
     >>> share.stiffness.round(3), share.length_in_proportion.round(3)
@@ -290,134 +182,86 @@ class RigDerivatives(_ByRigDatum):
     """
 
     __slots__ = ()
-    mass: Field[Floats] = Field("Numbers for the masses, shape (k, N), links lowest first; see `RigSensitivity`.", part=True)
-    length: Field[Floats] = Field("Numbers for the lengths, shape (k, N).", part=True)
-    centroid: Field[Floats] = Field("Numbers for the centroids, shape (k, N).", part=True)
-    radius_of_gyration: Field[Floats] = Field("Numbers for the radii of gyration, shape (k, N).", part=True)
-    length_in_proportion: Field[Floats] = Field("Numbers for lengths in proportion, shape (k, N).", part=True)
-    momentum: Field[Floats] = Field("Numbers for the momenta of flywheels, shape (k, N).", part=True)
-    spin: Field[Floats] = Field("Numbers for the spins of flywheels, shape (k, N).", part=True)
-    displaced_mass: Field[Floats] = Field("Numbers for the displaced masses, shape (k, N).", part=True)
-    added_mass: Field[Floats] = Field("Numbers for the added masses, shape (k, N).", part=True)
-    stiffness: Field[Floats] = Field("Numbers for the stiffness of the support, shape (k,).", part=True)
-    support_mass: Field[Floats] = Field("Numbers for the mass that moves with the support, shape (k,).", part=True)
-
-    def _sheet(self, brief: bool = False) -> Sheet:
-        return Sheet("mode", "Values by datum; the lowest link is shown", self._columns())
-
-
-class RigSensitivity(_ByRigDatum):
-    """Derivatives of the whirl speeds of k modes of a rig with respect to each of its data; all other data are constant.
-
-    The derivatives of the conical height ``lambda = gravity / n**2`` follow from ``d lambda = -2 * lambda / n * dn``. The
-    radius of the support has no effect on the speeds of small oscillations.
-
-    Notes
-    -----
-    Method: ``y' (K + n G - n^2 M / g) y = 0`` is stationary in the shape y. Accuracy: that of the shapes, 1e-14 of the
-    largest. Cost: O(N) for each mode.
-
-    Examples
-    --------
-    A point mass with a flywheel, ``A n^2 - H n - W a = 0`` with ``A = W a^2 / g``:
-
-    >>> import revchain as rc
-    >>> wheels = rc.Flywheel(momentum=[0.0, 0.5])
-    >>> m = rc.modes(rc.Rig(rc.Chain(weight=[1.0, 3.0], length=1.0), flywheels=wheels))
-    >>> m.angular_speed.round(3)
-    array([-2.315,  2.722, -3.939,  5.166])
-    >>> m.sensitivity.momentum[:, 1].round(3)
-    array([0.55 , 0.26 , 0.746, 1.713])
-    """
-
-    __slots__ = ()
-    mass: Field[Floats] = Field(
-        "Derivative with respect to the mass of each link, shape (k, N). For a chain given by weight, masses here and below are "
-        "weights.",
-        part=True,
+    number: Field[Whole] = Field(
+        "Mode numbers, shape (k,); for a rig with flywheels among those of the direction.", heading="mode", column="mode"
     )
-    length: Field[Floats] = Field(
-        "Derivative with respect to the distance between the pins of each link, shape (k, N): only the lower pin moves; the "
-        "momentum of the flywheel and the place and size of the displaced fluid are constant.",
-        part=True,
+    direction: Field[Whole | None] = Field(
+        "Direction of each mode of a rig, shape (k,): 1 forward, -1 backward; else None.", heading="direction"
     )
-    centroid: Field[Floats] = Field(
-        "Derivative with respect to the distance of the centre of gravity below the upper pin, shape (k, N).", part=True
+    conical_height: Field[Floats] = Field(
+        "Standard deviation of each conical height, m, shape (k,).", heading="of the height", unit="m"
     )
-    radius_of_gyration: Field[Floats] = Field(
-        "Derivative with respect to the radius of gyration of each link, shape (k, N).", part=True
+    relative: Field[Floats] = Field(
+        "Standard deviation of each height divided by the height, shape (k,). For speeds, periods and frequencies it is half "
+        "as much.",
+        heading="relative, of the height",
     )
-    length_in_proportion: Field[Floats] = Field(
-        "Derivative with respect to a length with which centroid and radius of gyration grow in proportion, shape (k, N).",
-        part=True,
+    angular_speed: Field[Floats] = Field(
+        "Standard deviation of each whirl speed, rad/s, shape (k,), for exact gravity.", heading="of the speed", unit="rad/s"
     )
-    momentum: Field[Floats] = Field(
-        "Derivative with respect to the angular momentum of each flywheel, shape (k, N).", part=True
+    frequency: Field[Floats] = Field(
+        "Standard deviation of each frequency, Hz, shape (k,).", lambda u: u.angular_speed / (2 * np.pi)
     )
-    spin: Field[Floats] = Field(
-        "Derivative with respect to the spin of each flywheel, shape (k, N); 0 if flywheels were given by momentum.", part=True
-    )
-    displaced_mass: Field[Floats] = Field(
-        "Derivative with respect to the mass of fluid that each link displaces, shape (k, N).", part=True
-    )
-    added_mass: Field[Floats] = Field("Derivative with respect to the added mass of each link, shape (k, N).", part=True)
-    stiffness: Field[Floats] = Field(
-        "Derivative with respect to the stiffness of the support, shape (k,); 0 if it is firm.", part=True
-    )
-    support_mass: Field[Floats] = Field(
-        "Derivative with respect to the mass that moves with the support, shape (k,); 0 if it is firm.", part=True
-    )
-
-    def _sheet(self, brief: bool = False) -> Sheet:
-        return Sheet("mode", "Derivatives of the whirl speeds; those for the lowest link are shown", self._columns())
-
-
-class RigUncertainty(Uncertainty):
-    """Standard deviations of the conical heights and speeds of k modes of a rig, to first order.
-
-    Examples
-    --------
-    >>> import revchain as rc
-    >>> rig = rc.Rig(rc.Chain(mass=1.0, length=1.0), support=rc.Support(stiffness=30.0))
-    >>> u = rc.modes(rig, 1).uncertainty(stiffness="10 %", length_in_proportion="1 %")
-    >>> u.largest
-    (('stiffness', 0),)
-    """
-
-    __slots__ = ()
-    number: Field[Whole] = Field("Number of each mode among those of its direction, shape (k,).", part=True)
-    direction: Field[Whole] = Field("Direction of each mode, shape (k,): 1 forward, -1 backward.", part=True)
-    share: Field[RigDerivatives] = Field(  # type: ignore[assignment]
-        "Part of each variance that comes from each datum; the parts of a mode add up to 1. With a covariance a part may be "
-        "negative.",
-        part=True,
+    period: Field[Floats] = Field("Standard deviation of each period, s, shape (k,).", heading="of the period", unit="s")
+    share: Field[Sensitivity] = Field(
+        "Part of each variance that comes from each datum, in the form of a `Sensitivity`; the parts of a mode add up to 1. "
+        "With a covariance a part may be negative."
     )
     largest: Field[tuple[tuple[str, int], ...]] = Field(
-        "For each mode the datum that contributes most, and its link, counted from 0 (0 for the support).", part=True
+        "For each mode the datum that contributes most, and its link, counted from 0 (0 for a datum that is not of a link).",
+        axes=(),
+        heading="largest part from",
+        shown=lambda u: [u._most(row) for row in range(len(u.largest))],
     )
+    names: Field[tuple[str, ...] | None] = Field("Names of the links; None if no names were given.")
 
     def _most(self, row: int) -> str:
-        datum = self.largest[row][0]
-        named = {"stiffness": "stiffness of the support", "support_mass": "mass of the support"}
-        return named.get(datum, super()._most(row)) if self.relative[row] else "nothing"
-
-    def _sheet(self, brief: bool = False) -> Sheet:
-        sheet = super()._sheet(brief)
-        sheet.columns.insert(1, Column("direction", self.direction, "direction"))
-        return sheet
+        datum, link = self.largest[row]
+        if not self.relative[row]:
+            return "nothing"
+        if self.share[datum].ndim == 1:
+            return {"stiffness": "stiffness of the support", "support_mass": "mass of the support"}.get(datum, datum)
+        return f"{datum} of {self.names[link] if self.names else f'links[{link}]'}"
 
 
-def of_rig(modes: RigModes) -> RigSensitivity:
-    """`RigModes.sensitivity`."""
-    found = rig_derivatives(modes.system, modes.angular_speed, modes.shape, modes.gravity)
-    return RigSensitivity._made(None, number=modes.number, direction=modes.direction, **found)
+def by_datum(of: str, modes: Any, value: dict[str, Any], **more: Any) -> Sensitivity:
+    """Numbers by datum for each mode."""
+    way = modes.direction if modes.system._kind == "rig" else None
+    given = {"error_bound": None, "relative": None, **more}
+    return Sensitivity._made(None, of=of, row="mode", number=modes.number, direction=way, value=value, **given)
+
+
+def sensitivity_of_modes(modes: Modes) -> Sensitivity:
+    """See `Modes.sensitivity`."""
+    system, kind = modes.system, modes.system._kind
+    if kind == "held chain":
+        raise UnavailableError(
+            "revchain.Modes.sensitivity: is for a Chain, a Rig or a Cord, got a chain held at both ends; change the datum and "
+            "call modes again"
+        )
+    if kind == "rig":
+        return by_datum("angular_speed", modes, rig_derivatives(system, modes.angular_speed, modes.shape, modes.gravity))
+    heights, data = modes.conical_height.astype(np.float64), _data(system, modes.gravity)
+    bounds = None
+    if kind == "chain":
+        first = int(modes.number[0]) if len(modes) else 1
+        found, errors = _core.sensitivity(system._compiled, first, heights)
+        values = dict(zip(DATA, found, strict=True))
+        bounds = by_datum("conical_height", modes, dict(zip(DATA, errors, strict=True)))
+    else:
+        rates: Any = _core.cord_sensitivity(modes._found()) if len(modes) else [np.empty(0)] * len(OF_CORDS)
+        values = dict(zip(OF_CORDS, rates, strict=True))
+        values["tension"] = values["tension"] / system._force(modes.gravity)
+    ratio = {name: x * (data[name] / (heights[:, None] if x.ndim == 2 else heights)) for name, x in values.items()}
+    relative = by_datum("ln(conical_height) by ln(datum)", modes, ratio)
+    return by_datum("conical_height", modes, values, error_bound=bounds, relative=relative)
 
 
 def rig_derivatives(rig: Rig, speeds: Any, shapes: Any, gravity: float) -> dict[str, Floats]:
-    """The derivatives of `RigSensitivity` for modes with given speeds and shapes."""
+    """The derivatives of whirl speeds of a rig with given shapes."""
     under = rig._under(gravity)
     rows = [_core.rig_sensitivity(under, float(n), y, gravity) for n, y in zip(speeds, shapes, strict=True)]
-    names = [name for name in _ByRigDatum._known if name != "spin"]
+    names = [name for name in (*DATA, *OF_RIGS) if name != "spin"]
     if rows:
         columns: list[Any] = [np.array(column) for column in zip(*rows, strict=True)]
     else:
@@ -426,78 +270,117 @@ def rig_derivatives(rig: Rig, speeds: Any, shapes: Any, gravity: float) -> dict[
     inertia = 0.0 if rig.flywheels is None else rig.flywheels._inertia
     per = rig._force(gravity)
     spin = found["momentum"] * (inertia / gravity)
-    return found | {"spin": spin, "momentum": found["momentum"] / per, "stiffness": found["stiffness"] / per}
+    found |= {"spin": spin, "momentum": found["momentum"] / per, "stiffness": found["stiffness"] / per}
+    return {name: found[name] for name in (*DATA, *OF_RIGS)}
 
 
-def shared_out(parts: dict[str, Floats]) -> tuple[Floats, Floats, dict[str, Floats]]:
-    """The parts of the variance of each mode side by side, their sum, and the share of each datum in it."""
+def uncertainty_of_modes(modes: Modes, given: dict[str, Any]) -> Uncertainty:
+    """See `Modes.uncertainty`; `given` has the arguments that were given."""
+    place, system, kind = "revchain.Modes.uncertainty", modes.system, modes.system._kind
+    if kind == "held chain":
+        raise ValueError(
+            f"{place}: is for a Chain, a Rig or a Cord, got a chain held at both ends; change the datum and call modes again"
+        )
+    sensitivity = modes.sensitivity
+    given = _checked(place, modes, given, sensitivity.data)
+    data = _data(system, modes.gravity)
+    parts: dict[str, Floats] = {}
+    for name, rates in sensitivity.value.items():
+        spread = np.zeros(())
+        if name in given:
+            present = np.broadcast_to(data[name], rates.shape[1] if rates.ndim == 2 else 1)
+            called = name if system.by_mass else name.replace("mass", "weight")
+            spread = _deviations(place, called, given[name], present)
+        each = np.nan_to_num(rates if rates.ndim == 2 else rates[:, None])
+        part = each * (each @ spread) if spread.ndim == 2 else (each * spread) ** 2
+        parts[name] = part if rates.ndim == 2 else part[:, 0]
     table = np.column_stack([*parts.values()])
     variance = np.maximum(table.sum(axis=1), 0.0)
     with np.errstate(divide="ignore", invalid="ignore"):
-        share = {n: np.nan_to_num(p / (variance[:, None] if p.ndim == 2 else variance)) for n, p in parts.items()}
-    return table, variance, share
-
-
-def rig_uncertainty(modes: RigModes, given: dict[str, ArrayLike | None]) -> RigUncertainty:
-    """`RigModes.uncertainty`."""
-    place, rig = "revchain.RigModes.uncertainty", modes.system
-    if given["mass"] is not None or given["weight"] is not None:
-        given["mass"] = like(place, rig.chain, given["mass"], given["weight"])
-    wheels = {} if rig.flywheels is None else rig.flywheels._given
-    if given["spin"] is not None and "spin" not in wheels:
-        raise ValueError(f"{place}: spin is for flywheels that were given by spin; give momentum, got {shown(given['spin'])}")
-    if given["spin"] is not None and given["momentum"] is not None:
-        raise ValueError(f"{place}: give either spin or momentum, got both")
-    if given["stiffness"] is not None and not np.isfinite(rig.support.stiffness):
-        why = "stiffness is for a support on a spring, and this one is firm; leave it out"
-        raise ValueError(f"{place}: {why}, got {shown(given['stiffness'])}")
-    sensitivity: Any = modes.sensitivity
-    parts: dict[str, Floats] = {}
-    for name in _ByRigDatum._known:
-        rates = sensitivity[name]
-        of_links = rates.ndim == 2
-        spread = np.zeros(())
-        if given[name] is not None:
-            data = np.broadcast_to(_rig_data(rig, name, modes.gravity), rig.size if of_links else 1)
-            called = name if rig.by_mass else name.replace("mass", "weight")
-            spread = _deviations(place, called, given[name], data)
-            _refuse_no_deviations(place, called, spread)
-        rates = rates if of_links else rates[:, None]
-        part = rates * (rates @ spread) if spread.ndim == 2 else (rates * spread) ** 2
-        parts[name] = part if of_links else part[:, 0]
-    table, variance, share = shared_out(parts)
-    speed = np.sqrt(variance)
+        share = {name: np.nan_to_num((part.T / variance).T) for name, part in parts.items()}
     places = [(name, k) for name, part in parts.items() for k in range(part.shape[1] if part.ndim == 2 else 1)]
-    relative = 2 * speed / np.abs(modes.angular_speed)
-    return RigUncertainty._made(
+    deviation, height = np.sqrt(variance), modes.conical_height.astype(np.float64)
+    speed = np.abs(modes.angular_speed.astype(np.float64))
+    relative = 2 * deviation / speed if kind == "rig" else deviation / height
+    return Uncertainty._made(
         None,
         number=modes.number,
-        direction=modes.direction,
-        names=rig.chain.names,
-        conical_height=relative * modes.conical_height,
+        direction=modes.direction if kind == "rig" else None,
+        names=_links(system).names if kind in ("chain", "rig") else None,
+        conical_height=relative * height,
         relative=relative,
-        angular_speed=speed,
-        period=0.5 * relative * modes.period,
-        share=RigDerivatives._made(None, number=modes.number, direction=modes.direction, **share),
+        angular_speed=0.5 * relative * speed,
+        period=0.5 * relative * np.asarray(modes.period, np.float64),
+        share=by_datum("part of the variance", modes, share),
         largest=tuple(places[k] for k in np.abs(table).argmax(axis=1)),
     )
 
 
-def _rig_data(rig: Rig, name: str, gravity: float) -> Any:
-    """The data of a rig by name, a number or one for each link."""
-    if name in DATA:
-        return _data(rig.chain)[name]
-    if name == "momentum":
-        return rig._own_momentum(gravity)
-    if name in ("stiffness", "support_mass"):
-        return rig.support.stiffness if name == "stiffness" else rig.support.carriage
-    given = (rig.flywheels if name == "spin" else rig.displaced) or rig.support
-    named = {"displaced_mass": ("mass", "weight"), "added_mass": ("added_mass", "added_weight"), "spin": ("spin",)}
-    return next((given._given[key] for key in named[name] if key in given._given and given is not rig.support), 0.0)
+def _checked(place: str, modes: Modes, given: dict[str, Any], known: tuple[str, ...]) -> dict[str, Any]:
+    """The deviations given, by the names of the data; a ValueError for a datum that the system has not or was not given by."""
+    system, kind = modes.system, modes.system._kind
+    given, heavy = dict(given), "mass" if system.by_mass else "weight"
+    if kind in ("chain", "rig") and ("mass" in given or "weight" in given):
+        given["mass"] = like(place, _links(system), given.get("mass"), given.pop("weight", None))
+    elif kind not in ("chain", "rig"):
+        other = "weight" if system.by_mass else "mass"
+        for name in [name for name in given if other in name]:
+            wanted = name.replace(other, heavy)
+            raise ValueError(f"{place}: the cord was given by {heavy}: give {wanted}, not {name}, got {shown(given[name])}")
+        given = {name.replace("weight", "mass"): value for name, value in given.items()}
+        held = kind.startswith("held")
+        for name in given:
+            if name in (("tip_mass", "exponent") if held else ("tension",)):
+                why = "is for a hanging cord" if held else "is for a cord held at both ends"
+                called = name.replace("mass", heavy)
+                raise ValueError(f"{place}: {called} {why}; leave it out, got {shown(given[name])}")
+        if "exponent" in given and not isinstance(system.density, float):
+            why = "the density was given as a function and has no exponent"
+            raise ValueError(f"{place}: {why}, got {shown(given['exponent'])}")
+    for name, value in given.items():
+        if name not in known:
+            raise ValueError(f"{place}: a {kind} has no {name}; leave it out, got {shown(value)}")
+    if "spin" in given and (system.flywheels is None or "spin" not in system.flywheels._given):
+        raise ValueError(f"{place}: spin is for flywheels that were given by spin; give momentum, got {shown(given['spin'])}")
+    if "spin" in given and "momentum" in given:
+        raise ValueError(f"{place}: give either spin or momentum, got both")
+    if "stiffness" in given and not np.isfinite(system.support.stiffness):
+        why = "stiffness is for a support on a spring, and this one is firm; leave it out"
+        raise ValueError(f"{place}: {why}, got {shown(given['stiffness'])}")
+    return given
+
+
+def _links(system: Any) -> Any:
+    return system.chain if system._kind == "rig" else system
+
+
+def _data(system: Any, gravity: float) -> dict[str, Any]:
+    """The data by name: a number, or one for each link."""
+    if system._kind.endswith("cord"):
+        held = system._kind == "held cord"
+        cord = system.system if held else system
+        exponent = cord.density if isinstance(cord.density, float) else np.nan
+        weights = cord._compiled.weight, cord._compiled.tip_weight
+        return dict(zip(OF_CORDS, (cord.length, *weights, exponent, (held and system.tension) or 0.0), strict=True))
+    chain = _links(system)
+    found = {name: getattr(chain, name) for name in DATA[1:4]}
+    found |= {"mass": chain.mass if chain.by_mass else chain.weight, "length_in_proportion": chain.length}
+    if system._kind == "rig":
+        wheels = {} if system.flywheels is None else system.flywheels._given
+        fluid = {} if system.displaced is None else system.displaced._given
+        found |= {
+            "momentum": system._own_momentum(gravity),
+            "spin": wheels.get("spin", 0.0),
+            "displaced_mass": fluid.get("mass", fluid.get("weight", 0.0)),
+            "added_mass": fluid.get("added_mass", fluid.get("added_weight", 0.0)),
+            "stiffness": system.support.stiffness,
+            "support_mass": system.support.carriage,
+        }
+    return found
 
 
 def _deviations(place: str, name: str, given: Any, data: Floats) -> Floats:
-    """Standard deviations (a number, or one for each datum), or their covariance."""
+    """Standard deviations (a number, or one for each datum), or their covariance; a ValueError if they are neither."""
     value, size = unpacked(given), data.size
     if isinstance(value, str):
         value = [value] * size
@@ -511,12 +394,23 @@ def _deviations(place: str, name: str, given: Any, data: Floats) -> Floats:
             f"{place}: {name} must be a number, one for each of the {size} links, or their covariance of shape "
             f"({size}, {size}), got shape {array.shape}"
         )
-    return array
-
-
-def _refuse_no_deviations(place: str, name: str, array: Floats) -> None:
-    """Raise a ValueError if the numbers are neither deviations nor a covariance."""
     if array.ndim < 2:
         refuse_where(~(np.isfinite(array) & (array >= 0)), array, f"{place}: {name} must be finite and not negative")
     elif not (np.isfinite(array).all() and (array == array.T).all() and (array.diagonal() >= 0).all()):
         raise ValueError(f"{place}: covariance of {name} must be finite, symmetric, and no variance negative")
+    return array
+
+
+def _parts_of_data(place: str, value: Any, data: Floats) -> list[Any]:
+    """Deviations; those given in percent are multiplied by the data."""
+    of = [data[k] if k < len(data) else 1.0 for k in range(len(value))]
+    return [
+        _part(place, one) * float(datum) if isinstance(one, str) and one.strip().endswith("%") else one
+        for one, datum in zip(value, of, strict=True)
+    ]
+
+
+def _part(place: str, text: str) -> float:
+    with suppress(ValueError):
+        return float(text.strip().removesuffix("%")) / 100
+    raise ValueError(f'{place} must be a number, or a part of it such as "5 %", got {shown(text)}')

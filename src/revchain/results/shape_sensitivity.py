@@ -12,155 +12,14 @@ from numpy.typing import NDArray
 
 from ..systems.numbers import Floats, refuse_beyond_memory
 from ..systems.rig import Rig
-from .base import Field, Result
-from .sensitivity import DATA, datum_columns
-from .sheet import Column, Sheet
+from .sensitivity import Sensitivity
 
 if TYPE_CHECKING:
     from ..systems.chain import Chain
     from .shapes import SteadyShape
 
 PARTS = ("inclination", "offset", "tension")
-OF_LINKS = ("momentum", "spin", "axial_moment", "displaced_mass", "added_mass")
 OF_SUPPORT = ("stiffness", "support_mass")
-
-
-class DerivativesByLink(Result):
-    """The base of derivatives of M numbers of a shape, one row for each number; see `ShapeSensitivity`."""
-
-    __slots__ = ()
-    angular_speed: Field[Floats] = Field("Derivatives with respect to the speed, per rad/s, shape (M,).", part=True)
-    mass: Field[Floats] = Field(
-        "Derivatives with respect to the mass of each link, per kg, shape (M, N); for a chain given by weight, its weight.",
-        part=True,
-    )
-    length: Field[Floats] = Field(
-        "Derivatives with respect to the distance between the pins of each link, shape (M, N), at constant centre of gravity "
-        "and radius of gyration.",
-        part=True,
-    )
-    centroid: Field[Floats] = Field(
-        "Derivatives with respect to the distance of the centre of gravity below the upper pin, shape (M, N).", part=True
-    )
-    radius_of_gyration: Field[Floats] = Field(
-        "Derivatives with respect to the radius of gyration of each link, shape (M, N).", part=True
-    )
-    length_in_proportion: Field[Floats] = Field(
-        "Derivatives with respect to a length with which centroid and radius of gyration grow in proportion, as for the thread "
-        "of a point mass, shape (M, N).",
-        part=True,
-    )
-
-    def _names(self) -> tuple[str, ...]:
-        return ("angular_speed", *DATA)
-
-    def _sheet(self, brief: bool = False) -> Sheet:
-        rows = Column("index", np.arange(len(self.angular_speed)), "index")
-        columns = datum_columns(self, self._names())
-        return Sheet("index", "Derivatives by datum; those for the lowest link are shown", [rows, *columns])
-
-
-class ShapeDerivatives(DerivativesByLink):
-    """Derivatives of M numbers of a shape, one row for each number; see `ShapeSensitivity`."""
-
-    __slots__ = ()
-    support_radius: Field[Floats] = Field("Derivatives with respect to the radius of the support, shape (M,).", part=True)
-
-    def _names(self) -> tuple[str, ...]:
-        return ("angular_speed", "support_radius", *DATA)
-
-
-class RigShapeDerivatives(ShapeDerivatives):
-    """Derivatives of M numbers of a shape of a rig, one row for each number; see `ShapeSensitivity`.
-
-    The place and size of the displaced fluid and the momentum of the flywheel are constant while a datum of a link
-    changes. For a chain given by weight, data with "mass" in their names are weights.
-    """
-
-    __slots__ = ()
-    stiffness: Field[Floats] = Field(
-        "Derivatives with respect to the stiffness of the support, per N/m, shape (M,); 0 if it is firm.", part=True
-    )
-    support_mass: Field[Floats] = Field(
-        "Derivatives with respect to the mass that moves with the support, shape (M,); 0 if it is firm.", part=True
-    )
-    momentum: Field[Floats] = Field(
-        "Derivatives with respect to the constant angular momentum of each link, shape (M, N).", part=True
-    )
-    spin: Field[Floats] = Field(
-        "Derivatives with respect to the spin of each flywheel, per rad/s, shape (M, N); 0 if flywheels were given by "
-        "momentum.",
-        part=True,
-    )
-    axial_moment: Field[Floats] = Field(
-        "Derivatives with respect to the moment of inertia of the turning parts of each link about its axis, shape (M, N).",
-        part=True,
-    )
-    displaced_mass: Field[Floats] = Field(
-        "Derivatives with respect to the mass of fluid that each link displaces, shape (M, N).", part=True
-    )
-    added_mass: Field[Floats] = Field(
-        "Derivatives with respect to the added mass of each link, shape (M, N); 0 in a fluid that turns.", part=True
-    )
-
-    def _names(self) -> tuple[str, ...]:
-        return (*super()._names(), *OF_SUPPORT, *OF_LINKS)
-
-
-class ShapeSensitivity(Result):
-    """Derivatives of a steady shape with respect to the speed and to the data of N links.
-
-    All other data are constant. At a fold of a branch the derivatives are infinite, because no shape exists beyond it. A
-    `Rig` has more derivatives: with respect to stiffness and mass of the support, to momentum, spin and axial moment of
-    flywheels, and to displaced and added mass. For a chain held at both ends each part is a `HeldShapeDerivatives`, with
-    derivatives by the data of the ends; `offset` and `tension` have a row for each of the N + 1 pins.
-
-    Notes
-    -----
-    Method: implicit function theorem. The moments about the pins, and the force on a support that yields, stay 0. This is
-    a linear equation for the change of the inclinations, whose matrix has the second derivatives of the effective energy.
-    Accuracy, relative to the largest derivative of a kind: 1e-12, or 1e-13 times `SteadyShape.condition` if that is more.
-    Cost: O(N^3), 20 ms for 200 links; memory for about ten N-by-N arrays, for a rig twenty.
-
-    Examples
-    --------
-    The change of the offset of the tip for each rad/s more, and that of the seat of a carousel for each metre of its arm:
-
-    >>> import revchain as rc
-    >>> shape = rc.steady_shapes(rc.Chain(mass=[1.0, 3.0], length=1.0), angular_speed=4.0)[0]
-    >>> round(float(shape.sensitivity.offset.angular_speed[0]), 4)
-    0.1859
-    >>> seat = rc.Rig(rc.Chain(mass=80.0, length=5.0), support=rc.Support(radius=4.0))
-    >>> out = rc.steady_shapes(seat, angular_speed="8 rpm")[0]
-    >>> round(float(out.sensitivity.offset.support_radius[0]), 4)
-    1.3859
-    """
-
-    __slots__ = ()
-    inclination: Field[ShapeDerivatives] = Field(
-        "Derivatives of the inclination of each link, rad; M = N. For a `Rig` this and the next two are "
-        "`RigShapeDerivatives`.",
-        part=True,
-    )
-    offset: Field[ShapeDerivatives] = Field(
-        "Derivatives of the offset of each pin from the axis, m; row 0 is the tip; M = N + 1.", part=True
-    )
-    tension: Field[ShapeDerivatives] = Field(
-        "Derivatives of the reaction at the upper pin of each link, N or in the unit of the weights; M = N.", part=True
-    )
-
-    def _sheet(self, brief: bool = False) -> Sheet:
-        n = len(self.inclination.angular_speed)
-        columns = [Column("link", np.arange(n), "link")]
-        for name, unit in (("inclination", "rad"), ("tension", "N")):
-            by_speed = getattr(self, name).angular_speed[-n:]
-            columns.append(Column(f"{name}_by_angular_speed", by_speed, f"{name} by speed ({unit} s/rad)"))
-        of_links = (*DATA, *OF_LINKS) if isinstance(self.offset, RigShapeDerivatives) else DATA
-        held = not hasattr(self.offset, "support_radius")
-        pin, of_pin = (n // 2, f"offset of pin {n // 2}") if held else (0, "tip radius")
-        for name in of_links:
-            columns.append(Column(f"{'offset' if held else 'tip'}_by_{name}", getattr(self.offset, name)[pin], f"{of_pin} by its {name}"))
-        return Sheet("link", "ShapeSensitivity: derivatives of a steady shape; .offset, .inclination, .tension", columns)
 
 
 @dataclass(frozen=True, slots=True)
@@ -381,7 +240,7 @@ def named(given: dict[str, Floats], chain: Chain, single: tuple[str, ...]) -> No
             given[name] = given[name][:, 0]
 
 
-def shape_sensitivity(shape: SteadyShape) -> ShapeSensitivity:
+def shape_sensitivity(shape: SteadyShape) -> Sensitivity:
     """See `SteadyShape.sensitivity`."""
     rig = shape.system if isinstance(shape.system, Rig) else None
     chain = rig.chain if rig is not None else shape.system
@@ -403,18 +262,32 @@ def shape_sensitivity(shape: SteadyShape) -> ShapeSensitivity:
         found[0][name] = each[:n]
         found[1][name] = reach @ swung + far + change.pins
         found[2][name] = shape._per * (pull * rise + hung * change.hung) / tension
-    return ShapeSensitivity._made(None, **dict(zip(PARTS, (_named(shape, given) for given in found), strict=True)))
+    return of_shape(n, [_named(shape, given) for given in found])
 
 
-def _named(shape: SteadyShape, given: dict[str, Floats]) -> ShapeDerivatives:
+def of_shape(links: int, found: list[dict[str, Floats]]) -> Sensitivity:
+    """The derivatives of inclinations, offsets and tensions."""
+    parts = {}
+    for of, value in zip(PARTS, found, strict=True):
+        rows = len(value["angular_speed"])
+        parts[of] = _made(of, "link" if rows == links else "pin", rows, value)
+    return _made("a steady shape", "link", links, parts)
+
+
+def _made(of: str, row: str, rows: int, value: dict[str, Any]) -> Sensitivity:
+    given: dict[str, Any] = {"direction": None, "error_bound": None, "relative": None}
+    return Sensitivity._made(None, of=of, row=row, number=np.arange(rows), value=value, **given)
+
+
+def _named(shape: SteadyShape, given: dict[str, Floats]) -> dict[str, Floats]:
     """The derivatives by data in their own units, with those that follow from others."""
     rig = shape.system if isinstance(shape.system, Rig) else None
     chain = rig.chain if rig is not None else shape.system
     named(given, chain, ("angular_speed", "support_radius", *OF_SUPPORT))
     if rig is None:
-        return ShapeDerivatives._made(None, **given)
+        return given
     inertia = 0.0 if rig.flywheels is None else rig.flywheels._inertia
     given["spin"] = given["momentum"] * np.broadcast_to(inertia, chain.size) / shape.gravity
     for name in ("stiffness", "momentum"):
         given[name] = given[name] / shape._per
-    return RigShapeDerivatives._made(None, **given)
+    return given

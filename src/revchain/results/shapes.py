@@ -1,30 +1,31 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Steady shapes of chains and rigs, their stability and their diagrams."""
+"""Steady shapes of all systems, and their stability."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, ClassVar
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
 from ..systems.chain import Chain
-from ..systems.held import Held
-from ..systems.numbers import Floats, shown
-from ..systems.rig import Rig
-from .base import Field, Result, Results
+from ..systems.numbers import Floats, Whole, floats, numbers, refuse_where, shown
+from .base import Field, Result, Results, UnavailableError
 from .diagrams import ForceDiagram
+from .held_sensitivity import held_shape_sensitivity
 from .moving import Moving
-from .shape_sensitivity import ShapeSensitivity, shape_sensitivity
+from .sensitivity import Sensitivity
+from .shape_sensitivity import shape_sensitivity
 from .sheet import Column, Sheet, digits
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 TURN = 2 * math.pi
+FORCES = ("tension", "effective_energy", "lower_pull", "upper_pull")
 
 
 def is_driven(place: str, frame: str) -> bool:
@@ -34,19 +35,24 @@ def is_driven(place: str, frame: str) -> bool:
     return frame == "driven"
 
 
-class Stability(Result):
+class Stability(
+    Result,
+    row="exponent",
+    title="Stability ({frame}): {verdict}, growth rate {_growth_rate} n",
+    notes=("without damping; last two columns: growth rate added by a unit of damping, 1/s",),
+):
     """Linear stability of a steady shape; times are in units of 1/n, with n the turning speed.
 
     Notes
     -----
     Exponents and verdict are without damping. A minimum stays stable with friction at the pins. A shape that is only
-    ``spectrally stable`` is stabilized by gyroscopic forces: any friction at the pins makes its motions of negative energy
-    grow. `internal_damping` and `external_damping` give the effect on each motion, to first order.
+    ``spectrally stable`` is stabilized by gyroscopic forces: any friction at the pins makes its motions of negative
+    energy grow. `internal_damping` and `external_damping` give the effect on each motion, to first order.
 
     References
     ----------
-    Merkin, Introduction to the Theory of Stability (1997), chapter 6 (Kelvin, Tait and Chetaev). Kirillov, Nonconservative
-    Stability Problems of Modern Physics (2013).
+    Merkin, Introduction to the Theory of Stability (1997), chapter 6 (Kelvin, Tait and Chetaev). Kirillov,
+    Nonconservative Stability Problems of Modern Physics (2013).
 
     Examples
     --------
@@ -63,74 +69,102 @@ class Stability(Result):
     """
 
     __slots__ = ()
-    frame: Field[str] = Field("Frame of the analysis: ``'free'`` or ``'driven'``.", part=True)
-    verdict: Field[str] = Field("``'minimum'``, ``'spectrally stable'``, ``'unstable'`` or ``'undecided'``.", part=True)
+    number: Field[Whole] = Field(
+        "Numbers of the exponents, from 1.",
+        lambda s: np.arange(1, len(s.exponents) + 1),
+        heading="exponent",
+        column="exponent",
+    )
+    frame: Field[str] = Field("Frame of the analysis: ``'free'`` or ``'driven'``.", fact=True)
+    verdict: Field[str] = Field("``'minimum'``, ``'spectrally stable'``, ``'unstable'`` or ``'undecided'``.", fact=True)
     exponents: Field[NDArray[np.complex128]] = Field(
-        "All ``s`` of ``exp(s n t)``, ordered by imaginary part, without those of the rotation itself: ``4 N - 2`` for N links "
-        "in the free frame, ``2 N`` in the driven frame. The links are rods without inertia about their own axes. A pin "
-        "without mass reduces the number: the two links that meet there stay in line. A support that yields adds 4 in the "
-        "free frame, 2 in the driven frame. A support carried round adds 2 in the free frame, because no rotation is left "
-        "out.",
-        part=True,
+        "All ``s`` of ``exp(s n t)``, ordered by imaginary part, without those of the rotation itself: ``4 N - 2`` "
+        "for N links in the free frame, ``2 N`` in the driven frame; for N links held at both ends ``4 N - 8`` and "
+        "``2 N - 4``. The links are rods without inertia about their own axes. A pin without mass reduces the number: "
+        "the two links that meet there stay in line. Each end that yields adds 4 in the free frame, 2 in the driven "
+        "frame. An end carried round adds 2 in the free frame, because no rotation is left out. For a cord the "
+        "slowest of infinitely many, up to the first on which two discretisations do not agree to 1e-6; most are "
+        "correct to 1e-9.",
+        heading="growth (n)",
+        column="value",
+        shown=lambda s: s.exponents.real,
+    )
+    frequency: Field[Floats] = Field(
+        "Imaginary parts of the exponents, in units of the turning speed.",
+        lambda s: s.exponents.imag,
+        heading="frequency (n)",
     )
     exponent_error: Field[Floats] = Field(
         "Estimate of the error of each exponent due to rounding in the shape, its tensions and all later steps (for a "
         "cord, at least the difference of two discretisations). It is large where two exponents meet, or one is near "
         "0.",
-        part=True,
+        heading="error (n)",
+        digits=2,
     )
     internal_damping: Field[Floats] = Field(
-        "Effect of friction at the pins on each exponent, in 1/(kg m^2): this number times a small damping c is added to the "
-        "growth rate (1/s). The damping c, N m s, is the moment at each pin divided by the relative angular speed of its "
-        "links in the turning frame. NaN if two exponents coincide.",
-        part=True,
+        "Effect of friction at the pins on each exponent, in 1/(kg m^2): this number times a small damping c is added "
+        "to the growth rate (1/s). The damping c, N m s, is the moment at each pin divided by the relative angular "
+        "speed of its links in the turning frame. NaN if two exponents coincide, and for a cord, which has no bending "
+        "stiffness.",
+        heading="with friction at pins",
     )
     external_damping: Field[Floats] = Field(
-        "Effect of drag in still air on each exponent, in m/kg: this number times a small drag c is added to the growth rate. "
-        "The drag c, N s/m^2, is the force per metre of link divided by its velocity in space. Without flywheels, a drag "
-        "proportional to mass lowers each growth rate by half the ratio of drag to mass.",
-        part=True,
+        "Effect of drag in still air on each exponent, in m/kg: this number times a small drag c is added to the "
+        "growth rate. The drag c, N s/m^2, is the force per metre of link divided by its velocity in space. Without "
+        "flywheels, a drag proportional to mass lowers each growth rate by half the ratio of drag to mass.",
+        heading="with drag in air",
     )
     growth_rate: Field[float] = Field(
         "Largest real part of the exponents, in units of the turning speed; NaN in a rotating fluid, where it is "
         "unknown.",
-        part=True,
+        fact=True,
     )
-    margin: Field[float] = Field("The largest `exponent_error`: errors cause no growth rate above it.", part=True)
+    margin: Field[float] = Field("The largest `exponent_error`: errors cause no growth rate above it.", fact=True)
     negative_directions: Field[int] = Field(
-        "Number of negative directions of the energy in the turning frame, at constant angular momentum in the free frame.",
-        part=True,
+        "Number of negative directions of the energy in the turning frame, at constant angular momentum in the free "
+        "frame.",
+        fact=True,
     )
 
-    def _sheet(self, brief: bool = False) -> Sheet:
-        count = len(self.exponents)
-        columns = [
-            Column("exponent", np.arange(1, count + 1), "exponent"),
-            Column("value", self.exponents, "growth (n)", shown=self.exponents.real),
-            Column("frequency", self.exponents.imag, "frequency (n)"),
-            Column("exponent_error", self.exponent_error, "error (n)", 2),
-            Column("internal_damping", self.internal_damping, "with friction at pins"),
-            Column("external_damping", self.external_damping, "with drag in air"),
-        ]
-        facts = {name: getattr(self, name) for name in ("frame", "verdict", "growth_rate", "margin")}
-        heading = f"Stability ({self.frame}): {self.verdict}, growth rate {self.growth_rate:.3g} n"
-        notes = ["without damping; last two columns: growth rate added by a unit of damping, 1/s"]
-        return Sheet("exponent", heading, columns, facts | {"negative_directions": self.negative_directions}, notes)
+    @property
+    def _growth_rate(self) -> str:
+        return f"{self.growth_rate:.3g}"
 
 
-def judged(found: _core.Stability, frame: str, shape: Shape) -> Stability:
-    """The stability of a shape from the compiled one; the effects of damping are converted to masses."""
-    per = 1.0 if shape.system.by_mass or shape.gravity == 0 else shape.gravity
-    damping = {name: per * getattr(found, name) for name in ("internal_damping", "external_damping")}
-    return Stability._made(found, frame=frame, **damping)
+class Place(NamedTuple):
+    """Position, inclination and tension at places of a cord.
+
+    Attributes
+    ----------
+    offset : float or ndarray
+        Offset from the axis, m.
+    height : float or ndarray
+        Height above the support (of a held cord: above its lower end), m; negative if the cord hangs.
+    inclination : float or ndarray
+        Inclination to the vertical, rad; positive if the cord approaches the axis going up.
+    tension : float or ndarray
+        Tension, N or in the unit of the weights.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> place = rc.steady_shapes(rc.Cord(1.0), conical_height=0.1)[0].along(0.5)
+    >>> round(float(place.offset), 6), round(float(place.height), 6)
+    (0.493314, -0.080949)
+    """
+
+    offset: Any
+    height: Any
+    inclination: Any
+    tension: Any
 
 
-def forced(name: str) -> Any:
-    """A function that returns a force of the compiled shape, times gravity if masses were given."""
+def forced(name: str) -> Callable[[Any], Any]:
+    """A function that returns a force of the compiled result, times gravity if masses were given."""
 
-    def compute(shape: Any) -> Any:
-        value, per = getattr(shape._found(), name), shape._per
-        return value if per == 1.0 else per * value
+    def compute(result: Any) -> Any:
+        value, per = getattr(result._found(), name), result._per
+        return value if per == 1.0 else per * np.asarray(value) if isinstance(value, list) else per * value
 
     return compute
 
@@ -140,37 +174,322 @@ def in_space(x: ArrayLike = 0.0, y: ArrayLike = 0.0, z: ArrayLike = 0.0) -> Floa
     return np.stack(np.broadcast_arrays(*(np.asarray(each, np.float64) for each in (x, y, z))), axis=-1)
 
 
-def force_above(size: Floats, inclination: Floats) -> Floats:
-    """Forces of the links above pins on what hangs below, from their sizes and their inclinations to the vertical."""
-    return in_space(x=-size * np.sin(inclination), z=size * np.cos(inclination))
+def _sensitivity(shape: SteadyShape) -> Sensitivity:
+    if hasattr(shape, "arc_length"):
+        raise UnavailableError(
+            "revchain.SteadyShape.sensitivity: is for shapes of links; cut the cord into links: cord.chain(100), got "
+            "a cord"
+        )
+    return held_shape_sensitivity(shape) if hasattr(shape, "lower_pull") else shape_sensitivity(shape)
 
 
-class Shape(Result, Moving):
-    """One steady shape (relative equilibrium) of a system at one speed; arrays start at the free or lower end."""
+class SteadyShape(Result, Moving, row="link", title="Steady shape of {_waves}{_at_speed}", notes=("{_order}",)):
+    """One steady shape (relative equilibrium) of a system at one speed.
+
+    `steady_shapes`, `steady_shape` and the branches return it. Arrays start at the free end, of a held system at the
+    lower end: N links and their N + 1 pins, or n places of a cord, which are closest where it bends sharply.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> shape = rc.steady_shapes(rc.Chain.uniform_plummets(2, length=2.0), angular_speed=5.0)[0]
+    >>> shape.inclination.round(4)
+    array([1.3719, 1.3076])
+    >>> shape.half_waves, shape.error_bound < 3e-16
+    (1, True)
+    >>> rope = rc.Held(rc.Chain.uniform_rods(10, length=1.0), span=0.5)
+    >>> shape = rc.steady_shapes(rope, angular_speed=10.0)[0]
+    >>> round(float(shape.offset.max()), 6), shape.proved
+    (0.383428, True)
+    """
 
     __slots__ = ()
-    system: Field[Any] = Field("The chain, rig, cord, or held chain or cord.", part=True)
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2; 0 without gravity.", part=True)
-    angular_speed: Field[float] = Field("The turning speed, rad/s.", lambda s: _speed(s.conical_height, s.gravity))
-    frequency: Field[float] = Field("Revolutions per second, Hz.", lambda s: s.angular_speed / TURN)
-    rpm: Field[float] = Field("Revolutions per minute.", lambda s: s.angular_speed * (60 / TURN))
+    system: Field[Any] = Field("The chain, rig, cord, or held chain or cord.")
+    angular_speed: Field[float] = Field(
+        "The turning speed, rad/s.", lambda s: _speed(s.conical_height, s.gravity), fact=True
+    )
+    frequency: Field[float] = Field("Revolutions per second, Hz.", lambda s: s.angular_speed / TURN, fact=True)
+    rpm: Field[float] = Field("Revolutions per minute.", lambda s: s.angular_speed * (60 / TURN), fact=True)
     period: Field[float] = Field("Time of one revolution, s.", lambda s: TURN / s.angular_speed)
-    conical_height: Field[float] = Field("Conical height of the speed, m; 0 without gravity.", part=True)
-    half_waves: Field[int] = Field("Sign changes of the offsets, plus one.", part=True)
+    conical_height: Field[float] = Field("Conical height of the speed, m; 0 without gravity.", fact=True)
+    half_waves: Field[int] = Field("Sign changes of the offsets, plus one.", fact=True)
+    error_bound: Field[float] = Field(
+        "Bound of the error of each inclination, rad; an estimate unless `proved`. For a cord also of each offset and "
+        "height divided by the length; measured errors reach 0.6 of it.",
+        fact=True,
+    )
+    proved: Field[bool] = Field(
+        "Whether `error_bound` is proved; else it is an estimate: for cords, at a fold of a branch, and where the "
+        "proof fails.",
+        fact=True,
+    )
+    residual: Field[float] = Field(
+        "Largest moment about a pin of the chain below it, divided by total weight times total length. For held "
+        "systems: largest unbalanced force divided by the tension, or largest gap at an end divided by the length. "
+        "For a hanging cord: unbalanced horizontal force of the whole at the support, or with a density function the "
+        "difference of two ways to compute the tension, divided by the tension there.",
+        fact=True,
+    )
+    condition: Field[float] = Field(
+        "Largest change of an inclination, rad, divided by the relative change of the forces that causes it. Each "
+        "weight and each centrifugal force of a hanging chain changes by up to this fraction, with any sign; for "
+        "cords and held systems length, span or conical height change. It is large near a critical height.",
+        fact=True,
+    )
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2; 0 without gravity.", fact=True)
+    direction: Field[int] = Field("Direction of rotation, 1 or -1; only a rig with flywheels depends on it.", fact=True)
+    moment_of_inertia: Field[float] = Field(
+        "Moment of inertia about the axis, with masses on springs of held ends, kg m^2; for a system given by weight, "
+        "in weight times length squared. Not for hanging cords.",
+        fact=True,
+    )
+    effective_energy: Field[float] = Field(
+        "Potential energy (with that of springs) minus half the moment of inertia times the speed squared, J; it is "
+        "stationary at a steady shape. Not for cords.",
+        forced("effective_energy"),
+        part=True,
+        fact=True,
+    )
+    angular_momentum: Field[float] = Field(
+        "Angular momentum about the axis, kg m^2/s, or with the unit of the weights. For a `Rig` it includes that of "
+        "the flywheels, and is negative if the total is opposite to a positive speed. Not for hanging cords.",
+        lambda s: s._angular_momentum(),
+        fact=True,
+    )
+    span: Field[float] = Field("Distance between the two ends of a held system along the axis, m.", fact=True)
+    support_offset: Field[float] = Field(
+        "Offset of the upper end from the axis, m; it is 0 unless a `Rig` or the arms of a held chain move it.",
+        lambda s: float(s.offset[-1]),
+        fact=True,
+    )
+    inclination: Field[Floats] = Field(
+        "Inclination of each link or place to the vertical, rad, within (-pi, pi]: to the downward vertical for "
+        "hanging systems, to the upward one for held systems; positive if it approaches the axis going up.",
+    )
+    offset: Field[Floats] = Field("Signed distance of each pin or place from the axis, m.")
+    height: Field[Floats] = Field(
+        "Height of each pin or place above the support, m; for a held system above its lower end."
+    )
+    tension: Field[Floats] = Field(
+        "Magnitude of the reaction at the upper pin of each link, shape (N,), N or in the unit of the weights; for a "
+        "held chain at each pin, shape (N + 1,); for a cord at each place.",
+        forced("tension"),
+        part=True,
+    )
+    reaction_inclination: Field[Floats] = Field(
+        "Inclination of the (upward) force whose magnitude is `tension` to the vertical, rad. Not for cords, where it "
+        "is that of the cord."
+    )
+    joint_angle: Field[Floats] = Field(
+        "Inclination of the link below each pin minus that of the link above it, rad, for pins with a `tension`; "
+        "beyond an end the inclination counts as 0. Not for cords.",
+        lambda s: -np.diff(s.inclination, prepend=[0.0] * (s.reaction_inclination.size - s.inclination.size), append=0),
+    )
+    arc_length: Field[Floats] = Field("Distance of each place of a cord from the free or lower end along the cord, m.")
     position: Field[Floats] = Field(
-        "Coordinates x, y, z of each pin or place, m, shape (n, 3), while the shape is in the plane y = 0: x is the offset, "
-        "z the height.",
+        "Coordinates x, y, z of each pin or place, m, shape (n, 3), while the shape is in the plane y = 0: x is the "
+        "offset, z the height.",
         lambda s: in_space(x=s.offset, z=s.height),
     )
     velocity: Field[Floats] = Field(
         "Velocity of each pin or place at that moment, m/s, shape (n, 3): it is along y.",
-        lambda s: in_space(y=getattr(s, "direction", 1) * s.angular_speed * s.offset),
+        lambda s: in_space(y=s.direction * s.angular_speed * s.offset),
     )
+    reaction: Field[Floats] = Field(
+        "Force at each pin with a `tension` on what is below it, x, y, z in the axes of `position`, N or in the unit "
+        "of the weights; at the lower end of a held chain the force on the bearing. Not for cords.",
+        lambda s: in_space(x=-s.tension * np.sin(s.reaction_inclination), z=s.tension * np.cos(s.reaction_inclination)),
+    )
+    lower_pull: Field[Floats] = Field(
+        "Pull of a held system on its lower bearing, shape (2,): outwards (to the side of positive offsets) and "
+        "upwards.",
+        forced("lower_pull"),
+        part=True,
+    )
+    upper_pull: Field[Floats] = Field(
+        "Pull of a held system on its upper bearing, shape (2,): outwards and upwards.", forced("upper_pull"), part=True
+    )
+    sensitivity: Field[Sensitivity] = Field(
+        "Derivatives of inclinations, offsets and tensions with respect to the speed and each datum; see "
+        "`Sensitivity`. Not for cords.",
+        _sensitivity,
+    )
+    _ends: Field[Floats] = Field("Stiffness, weight, radius of both held ends.", lambda s: s._found().ends, part=True)
+    _path: Field[Floats] = Field("The path that `along` interpolates.", lambda s: s._found().path.ravel(), part=True)
 
-    @property
-    def _per(self) -> float:
-        """Factor from the forces of the compiled shape to those of the result."""
-        return self.system._force(self.gravity)  # type: ignore[no-any-return]
+    def along(self, arc_length: ArrayLike) -> Place:
+        """Return offset, height, inclination and tension at distances along a cord.
+
+        Parameters
+        ----------
+        arc_length : array_like
+            Distances from the free end, of a held cord from the lower end, along the cord, m, 0 to the length, any
+            shape.
+
+        Returns
+        -------
+        Place
+            Arrays with the shape of `arc_length`, as accurate as those of the shape. Cost: 1 microsecond for each
+            place, 10 with a density function.
+
+        Raises
+        ------
+        ValueError
+            If a number lies outside the cord, or the shape is one of links, whose pins are in `offset` and `height`.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> shape = rc.steady_shapes(rc.Cord(1.0), conical_height=0.1)[0]
+        >>> round(float(shape.along(0.5).offset), 6)
+        0.493314
+        >>> cord = rc.Held(rc.Cord(1.0), span=0.5)
+        >>> round(float(rc.steady_shapes(cord, conical_height=0.1)[0].along(0.5).offset), 6)
+        0.380421
+        """
+        place, found = "revchain.SteadyShape.along", self._found()
+        if not hasattr(found, "along"):
+            what = "is for cords; the pins of links are in offset and height"
+            raise ValueError(f"{place}: {what}, got {shown(self.system)}")
+        length = self.system.length
+        arc = floats(place, "arc_length", arc_length)
+        what = f"{place}: arc_length must lie between 0 and the length {length:g}"
+        refuse_where(~((arc >= 0) & (arc <= length)), arc, what)
+        *where, tension = found.along(arc)
+        return Place(*numbers([*where, self._per * tension]))
+
+    def stability(self, *, frame: str = "free") -> Stability:
+        """Return the linear stability of the shape: the growth or decay of small disturbances.
+
+        Parameters
+        ----------
+        frame : {"free", "driven"}, optional
+            ``free``: the links have ball joints and no torque acts about the axis, so that the angular momentum is
+            constant; a support that is carried round keeps its speed instead. ``driven``: the links have hinges; they,
+            and an end that yields, move in a plane that is driven at constant speed. Firm ends of held systems are
+            fixed in both.
+
+        Returns
+        -------
+        Stability
+            The stability. Accuracy: 1e-13 of the largest exponent for simple ones; with masses up to 1e16 apart 2e-13,
+            on arms and springs 5e-9. `exponent_error` estimates the error of each, and a verdict within it is
+            ``undecided``. The exponents are without damping; `Stability.internal_damping` and
+            `Stability.external_damping` give the effect of a little of it. Cost: ``(4 N)**3 / 2`` operations: half a
+            millisecond for twenty links, a tenth of a second for a hundred. Where double precision loses digits, twice
+            the digits are used, up to 25 links in the free frame: a hundred times as long. For cords see
+            `Stability.exponents`; the verdict is ``undecided`` if two discretisations differ in more than the growth
+            rate. Cost: 15 milliseconds for a shape without nodes, 0.3 s for one of three half waves.
+
+        Raises
+        ------
+        ValueError
+            If `frame` is another word; if a motion moves no mass (a movable pin of a held chain without mass, but for
+            an upper end on a spring), or a flywheel acts on a support that yields and has no mass.
+
+        Notes
+        -----
+        In the free frame each link of a `Rig` keeps its angular momentum about its own axis (with its wheel, free or
+        driven), because ball joints transmit no torque along a link. Still fluid acts only by its added mass. The
+        motion of a turning fluid around a disturbed link is not modelled, so there are no exponents. A shape of least
+        energy at constant speed (except for a rotation) is then a minimum and stable in any such fluid; any other is
+        undecided.
+
+        Method for cords: Galerkin's method with polynomials on panels along the cord. The exponents of chains of N
+        links differ from these by an amount proportional to ``1 / N**2``.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> pair = rc.steady_shapes(rc.Chain.uniform_plummets(2, length=2.0), conical_height=0.1)
+        >>> [shape.stability().verdict for shape in pair]
+        ['minimum', 'unstable']
+
+        A chair of a carousel outwards and in two shapes inwards; friction makes the last one unstable:
+
+        >>> carousel = rc.Rig(rc.Chain(mass=80.0, length=4.0), support=rc.Support(radius=1.0))
+        >>> chair = [shape.stability() for shape in rc.steady_shapes(carousel, angular_speed=3.0)]
+        >>> [found.verdict for found in chair]
+        ['minimum', 'unstable', 'spectrally stable']
+        >>> bool(chair[2].internal_damping.max() > 0)
+        True
+
+        Cords, hanging and held:
+
+        >>> shapes = rc.steady_shapes(rc.Cord(1.0), conical_height=0.05)
+        >>> [shape.stability().verdict for shape in shapes], round(shapes[1].stability().growth_rate, 6)
+        (['minimum', 'unstable', 'spectrally stable'], 0.009808)
+        >>> rope = rc.Held(rc.Cord(1.0), span=0.5)
+        >>> [shape.stability().verdict for shape in rc.steady_shapes(rope, conical_height=0.01, max_half_waves=2)]
+        ['minimum', 'spectrally stable']
+        """
+        driven = is_driven("revchain.SteadyShape.stability", frame)
+        system = self.system._under(self.gravity)
+        found: Any = _core.stability(system, self._found(), driven, self.direction, self.gravity)
+        per = 1.0 if self.system.by_mass or self.gravity == 0 else self.gravity  # the core's unit of mass over kg
+        damping = {name: per * getattr(found, name) for name in ("internal_damping", "external_damping")}
+        return Stability._made(found, frame=frame, **damping)
+
+    def force_diagram(self) -> ForceDiagram:
+        """Return the graphical construction of the shape: force diagram and funicular polygon.
+
+        Returns
+        -------
+        ForceDiagram
+            The diagram. Its rays are sums of weights and centrifugal forces from below; they are parallel to the links,
+            which is an independent check of the shape.
+
+        Raises
+        ------
+        ValueError
+            If the shape is not that of a `Chain`.
+
+        Notes
+        -----
+        Source: Greenhill (1908), section 3, figures 3 and 5.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import revchain as rc
+        >>> shape = rc.steady_shapes(rc.Chain.uniform_plummets(2, length=2.0), conical_height=0.5)[0]
+        >>> diagram = shape.force_diagram()
+        >>> side = diagram.pin[1:] - diagram.pin[:-1]
+        >>> bool(np.allclose(side[:, 0] / side[:, 1], diagram.ray[:, 0] / diagram.ray[:, 1], rtol=1e-14))
+        True
+        """
+        found = _core.force_diagram(self._chain("force_diagram"), self._found())
+        forces = {name: self._per * getattr(found, name) for name in ("load", "ray", "reaction")}
+        return ForceDiagram._made(found, **forces)
+
+    def transferred_to_axis(self) -> Chain:
+        """Return the straight chain whose weights hang on the axis at the heights that they have in the shape.
+
+        Returns
+        -------
+        Chain
+            The chain; each link has the length of its vertical projection. One of its modes has the conical height and
+            the offsets of the shape, for links of any kind; for point masses it is mode ``half_waves``.
+
+        Raises
+        ------
+        ValueError
+            If the shape is not that of a `Chain`.
+
+        Notes
+        -----
+        Inclinations enter relation (21) only through ``conical_height / cos(inclination)``. Perpendicular to the
+        turning plane the shape is as stiff as this chain. Source: Greenhill (1908), section 8 (21).
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> shape = rc.steady_shapes(rc.Chain.uniform_plummets(2, length=2.0), conical_height=0.5)[0]
+        >>> rc.modes(shape.transferred_to_axis()).conical_height.round(12)
+        array([0.5       , 0.08366581])
+        """
+        made = _core.transferred_to_axis(self._chain("transferred_to_axis"), self._found())
+        return Chain._wrap(made, self.system.by_mass, self.system.names)
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the shape, true to scale.
@@ -201,323 +520,197 @@ class Shape(Result, Moving):
 
         return plot_shapes([self], ax)
 
-    @classmethod
-    def _columns(cls, shapes: Sequence[Any]) -> list[Column]:
-        """Columns of the table of a list of shapes."""
-        raise NotImplementedError
-
-
-class SteadyShape(Shape):
-    """One steady shape (relative equilibrium) of a chain or rig: links lowest first, pins free end first.
-
-    `steady_shapes`, `steady_shape` and the branches return it.
-
-    Examples
-    --------
-    >>> import revchain as rc
-    >>> shape = rc.steady_shapes(rc.Chain.uniform_plummets(2, length=2.0), angular_speed=5.0)[0]
-    >>> shape.inclination.round(4)
-    array([1.3719, 1.3076])
-    >>> shape.half_waves, shape.error_bound < 3e-16
-    (1, True)
-    """
-
-    __slots__ = ()
-    direction: Field[int] = Field("Direction of rotation, 1 or -1; only a rig with flywheels depends on it.", part=True)
-    inclination: Field[Floats] = Field(
-        "Inclination of each link to the downward vertical, rad, shape (N,), within (-pi, pi].", part=True
-    )
-    offset: Field[Floats] = Field(
-        "Signed distance of each pin from the axis, m, shape (N + 1,). The last is that of the support; it is 0 unless a `Rig` "
-        "moves it.",
-        part=True,
-    )
-    height: Field[Floats] = Field("Height of each pin above the support, m, shape (N + 1,).", part=True)
-    tension: Field[Floats] = Field(
-        "Magnitude of the reaction at the upper pin of each link, shape (N,), N or in the unit of the weights.",
-        forced("tension"),
-        part=True,
-    )
-    reaction_inclination: Field[Floats] = Field(
-        "Inclination of the reaction at the upper pin of each link to the vertical, rad, shape (N,).", part=True
-    )
-    joint_angle: Field[Floats] = Field(
-        "Inclination of each link minus that of the link above it, rad, shape (N,); for the top link, its own "
-        "inclination.",
-        lambda s: s.inclination - np.append(s.inclination[1:], 0.0),
-    )
-    reaction: Field[Floats] = Field(
-        "Force on each link at its upper pin, x, y, z in the axes of `position`, shape (N, 3), N or in the unit of the "
-        "weights.",
-        lambda s: force_above(s.tension, s.reaction_inclination),
-    )
-    residual: Field[float] = Field(
-        "Largest moment about a pin of the chain below it, divided by total weight times total length.", part=True
-    )
-    error_bound: Field[float] = Field(
-        "Bound of the error of each inclination, rad. It is proved, except at a fold of a branch, where it is an estimate.",
-        part=True,
-    )
-    condition: Field[float] = Field(
-        "Largest change of an inclination, rad, divided by the relative change of the forces that causes it. Each "
-        "weight and each centrifugal force changes by up to this fraction, with any sign.",
-        part=True,
-    )
-    moment_of_inertia: Field[float] = Field(
-        "Moment of inertia about the axis, kg m^2; for a chain given by weight, in weight times length squared.", part=True
-    )
-    effective_energy: Field[float] = Field(
-        "Potential energy minus half the moment of inertia times the speed squared, J; it is stationary at a steady "
-        "shape.",
-        forced("effective_energy"),
-        part=True,
-    )
-    sensitivity: Field[ShapeSensitivity] = Field(
-        "Derivatives of inclinations, offsets and tensions with respect to the speed and each datum; see "
-        "`ShapeSensitivity`.",
-        shape_sensitivity,
-    )
-    angular_momentum: Field[float] = Field(
-        "Angular momentum about the axis, kg m^2/s, or with the unit of the weights. For a `Rig` it includes that of the "
-        "flywheels, and is negative if the total is opposite to a positive speed.",
-        lambda s: s._angular_momentum(),
-    )
-
-    def stability(self, *, frame: str = "free") -> Stability:
-        """Return the linear stability of the shape: the growth or decay of small disturbances.
-
-        Parameters
-        ----------
-        frame : {"free", "driven"}, optional
-            ``free``: the links have ball joints and no torque acts about the axis, so that the angular momentum is constant;
-            a support that is carried round keeps its speed instead. ``driven``: the links have hinges; they, and a support
-            that yields, move in a plane that is driven at constant speed.
-
-        Returns
-        -------
-        Stability
-            The stability. Accuracy: 1e-13 of the largest exponent for simple ones; with masses up to 1e16 apart 2e-13, on arms
-            and springs 5e-9. `exponent_error` estimates the error of each, and a verdict within it is ``undecided``. The exponents are without damping;
-            `Stability.internal_damping` and `Stability.external_damping` give the effect of a little of it. Cost:
-            ``(4 N)**3 / 2`` operations: half a millisecond for twenty links, a tenth of a second for a hundred. Where double
-            precision loses digits, twice the digits are used, up to 25 links in the free frame: a hundred times as long.
-
-        Raises
-        ------
-        ValueError
-            If `frame` is another word; if a motion of a `Rig` moves no mass, or a flywheel acts on a support that yields and
-            has no mass.
-
-        Notes
-        -----
-        In the free frame each link of a `Rig` keeps its angular momentum about its own axis (with its wheel, free or
-        driven), because ball joints transmit no torque along a link. Still fluid acts only by its added mass. The motion of
-        a turning fluid around a disturbed link is not modelled, so there are no exponents. A shape of least energy at
-        constant speed (except for a rotation) is then a minimum and stable in any such fluid; any other is undecided.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> pair = rc.steady_shapes(rc.Chain.uniform_plummets(2, length=2.0), conical_height=0.1)
-        >>> [shape.stability().verdict for shape in pair]
-        ['minimum', 'unstable']
-
-        A chair of a carousel outwards and in two shapes inwards; friction makes the last one unstable:
-
-        >>> carousel = rc.Rig(rc.Chain(mass=80.0, length=4.0), support=rc.Support(radius=1.0))
-        >>> chair = [shape.stability() for shape in rc.steady_shapes(carousel, angular_speed=3.0)]
-        >>> [found.verdict for found in chair]
-        ['minimum', 'unstable', 'spectrally stable']
-        >>> bool(chair[2].internal_damping.max() > 0)
-        True
-        """
-        driven = is_driven("revchain.SteadyShape.stability", frame)
-        if isinstance(self.system, Rig):
-            rig = self.system._under(self.gravity)
-            found = _core.stability_of_rig(rig, self._found(), driven, self.direction, self.gravity)
-        else:
-            found = _core.stability(self._chain("stability"), self._found(), driven)
-        return judged(found, frame, self)
-
-    def force_diagram(self) -> ForceDiagram:
-        """Return the graphical construction of the shape: force diagram and funicular polygon.
-
-        Returns
-        -------
-        ForceDiagram
-            The diagram. Its rays are sums of weights and centrifugal forces from below; they are parallel to the links,
-            which is an independent check of the shape.
-
-        Raises
-        ------
-        ValueError
-            If the shape is that of a `Rig`.
-
-        Notes
-        -----
-        Source: Greenhill (1908), section 3, figures 3 and 5.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> import revchain as rc
-        >>> shape = rc.steady_shapes(rc.Chain.uniform_plummets(2, length=2.0), conical_height=0.5)[0]
-        >>> diagram = shape.force_diagram()
-        >>> side = diagram.pin[1:] - diagram.pin[:-1]
-        >>> bool(np.allclose(side[:, 0] / side[:, 1], diagram.ray[:, 0] / diagram.ray[:, 1], rtol=1e-14))
-        True
-        """
-        found = _core.force_diagram(self._chain("force_diagram"), self._found())
-        if self._per == 1.0:
-            return ForceDiagram._made(found)
-        forces = {name: self._per * getattr(found, name) for name in ("load", "ray", "reaction")}
-        return ForceDiagram._made(found, **forces)
-
-    def transferred_to_axis(self) -> Chain:
-        """Return the straight chain whose weights hang on the axis at the heights that they have in the shape.
-
-        Returns
-        -------
-        Chain
-            The chain; each link has the length of its vertical projection. One of its modes has the conical height and
-            the offsets of the shape, for links of any kind; for point masses it is mode ``half_waves``.
-
-        Raises
-        ------
-        ValueError
-            If the shape is that of a `Rig`.
-
-        Notes
-        -----
-        Inclinations enter relation (21) only through ``conical_height / cos(inclination)``. Perpendicular to the turning
-        plane the shape is as stiff as this chain. Source: Greenhill (1908), section 8 (21).
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> shape = rc.steady_shapes(rc.Chain.uniform_plummets(2, length=2.0), conical_height=0.5)[0]
-        >>> rc.modes(shape.transferred_to_axis()).conical_height.round(12)
-        array([0.5       , 0.08366581])
-        """
-        made = _core.transferred_to_axis(self._chain("transferred_to_axis"), self._found())
-        return Chain._wrap(made, self.system.by_mass, self.system.names)
+    @property
+    def _per(self) -> float:
+        """Factor from the forces of the compiled shape to those of the result."""
+        return float(self.system._force_in_shape(self.gravity, self.conical_height, self.angular_speed))
 
     def _chain(self, method: str) -> _core.Chain:
-        if isinstance(self.system, Rig):
+        if not isinstance(self.system, Chain):
             raise ValueError(
-                f"revchain.SteadyShape.{method}: is for shapes of a Chain; for a Rig ask modes, or the shape of its chain"
+                f"revchain.SteadyShape.{method}: is for shapes of a Chain; for a Rig ask modes, or the shape of its "
+                f"chain, got {shown(self.system)}"
             )
-        core: _core.Chain = self.system._compiled
-        return core
+        return self.system._compiled
 
-    def _again(self) -> Any:
-        per = {"tension": self._per, "effective_energy": self._per}
-        return _core.SteadyShape(**{name: getattr(self, name) / per.get(name, 1) for name in _CORE})
+    def _from_parts(self) -> Any:
+        """The compiled shape with these numbers; nothing is solved."""
+        made: Any = _core.blank_shape(self.system._under(self.gravity))
+        known, per = self.__dict__, self._per
+        for name, field in self._fields.items():
+            if field.part and name in known and hasattr(made, name.strip("_")):
+                setattr(made, name.strip("_"), known[name] / per if name in FORCES else known[name])
+        return made
 
     def _angular_momentum(self) -> float:
-        turning = self.moment_of_inertia / self.gravity * self.angular_speed
-        if isinstance(self.system, Rig):
-            kept = float(np.sum(self.system._momentum(self.gravity) * np.cos(self.inclination)))
-            turning = self.direction * turning + kept
-        return self._per * turning
+        by_mass = self.system.by_mass or self.gravity == 0
+        turning = self.moment_of_inertia * self.angular_speed / (1.0 if by_mass else self.gravity)
+        wheels: float = self.system._momentum_of_wheels(self.gravity, self.inclination)
+        return self.direction * turning + wheels
+
+    @property
+    def _waves(self) -> str:
+        return f"{self.half_waves} half wave{'s' * (self.half_waves != 1)}"
+
+    @property
+    def _at_speed(self) -> str:
+        return at_speed(self.angular_speed)
+
+    @property
+    def _order(self) -> str:
+        if hasattr(self, "span"):
+            return "heights above the lower end"
+        if hasattr(self, "arc_length"):
+            return "arc lengths from the free end, heights above the support"
+        return "links from the free end up; inclinations to the downward vertical"
 
     def _sheet(self, brief: bool = False) -> Sheet:
-        columns = [
-            Column("link", np.arange(len(self.inclination)), "link", shown=getattr(self.system, "names", None)),
-            Column("inclination", self.inclination, "inclination (°)", shown=np.degrees(self.inclination)),
-            Column("offset", self.offset[:-1], "lower pin: from axis (m)"),
-            Column("height", self.height[:-1], "above support (m)"),
-            Column("tension", self.tension, "tension" + " (N)" * self.system.by_mass),
-            Column("reaction_inclination", self.reaction_inclination),
-            Column("joint_angle", self.joint_angle),
-            Column("position", self.position[:-1], axes=("component",)),
-            Column("velocity", self.velocity[:-1], axes=("component",)),
-            Column("reaction", self.reaction, axes=("component",)),
-        ]
-        names: tuple[str, ...] = ("angular_speed", "conical_height", "half_waves", "error_bound", "residual", "condition")
-        names += ("gravity", "direction", "moment_of_inertia", "effective_energy", "angular_momentum")
-        heading = f"Steady shape of {self.half_waves} half wave{'s' * (self.half_waves != 1)}{at_speed(self.angular_speed)}"
-        notes = ["links from the free end up; inclinations to the downward vertical"]
-        facts = {name: getattr(self, name) for name in names} | {"support_offset": float(self.offset[-1])}
-        return Sheet("link", heading, columns, facts, notes)
+        sheet = super()._sheet(brief)
+        held, along = hasattr(self, "span"), getattr(self, "arc_length", None)
+        unit = " (N)" * self.system.by_mass
+        headings = {"offset": "from axis (m)", "height": "height (m)", "tension": f"tension{unit}"}
+        if along is not None:
+            rows = Column("arc_length", along, "arc length (m)", unit="m")
+        elif held:
+            rows = Column("pin", np.arange(len(self.offset)), "pin")
+        else:  # a row for each link with its lower pin; the support is a fact
+            rows = Column("link", np.arange(len(self.inclination)), "link", shown=getattr(self.system, "names", None))
+            headings |= {"inclination": "inclination (°)", "offset": "lower pin: from axis (m)"}
+            headings |= {"height": "above support (m)"}
+        columns = [rows]
+        for name in _BY_PIN:
+            values = getattr(self, name, None)
+            if values is None or len(values) < len(rows.values) or (brief and name not in headings):
+                continue
+            values = values[: len(rows.values)]
+            shown = np.degrees(values) if name == "inclination" else None
+            axes = ("component",) * (values.ndim - 1)
+            columns.append(Column(name, values, headings.get(name, ""), axes=axes, shown=shown, unit=_BY_PIN[name]))
+        row = "link" if along is None and not held else "place"
+        return Sheet(row, sheet.heading, columns, sheet.facts, sheet.notes, spread=along is not None or held)
 
 
-    _note: ClassVar[str] = "inclinations: from the downward vertical; error: proved bound on every inclination"
-
-    @classmethod
-    def _columns(cls, shapes: Sequence[Any]) -> list[Column]:
-        angles = [shape.inclination for shape in shapes]
-        unit = " (N)" if shapes[0].system.by_mass else ""
-        lowest, top = [x[0] for x in angles], [x[-1] for x in angles]
-        columns = [
-            Column("lowest_inclination", lowest, "lowest link (°)", 5, shown=np.degrees(lowest)),
-            Column("top_inclination", top, "top link (°)", 5, shown=np.degrees(top)),
-            Column("free_end_offset", [x.offset[0] for x in shapes], "free end: from axis (m)", 5),
-            Column("free_end_height", [x.height[0] for x in shapes], "above support (m)", 5),
-            Column("top_tension", [x.tension[-1] for x in shapes], f"top tension{unit}", 5),
-            Column("error_bound", [x.error_bound for x in shapes], "error (rad)"),
-        ]
-        names = ("inclination", "offset", "height", "tension", "reaction_inclination")
-        axes = {"offset": "pin", "height": "pin"}
-        return columns + [
-            Column(name, table([getattr(x, name) for x in shapes]), axes=(axes.get(name, "link"),)) for name in names
-        ]
+_BY_PIN = {"inclination": "rad", "offset": "m", "height": "m", "tension": "", "reaction_inclination": "rad"}
+_BY_PIN |= {"joint_angle": "rad", "position": "m", "velocity": "m/s", "reaction": ""}
 
 
-_CORE = (
-    "inclination",
-    "offset",
-    "height",
-    "tension",
-    "reaction_inclination",
-    "half_waves",
-    "conical_height",
-    "residual",
-    "error_bound",
-    "condition",
-    "moment_of_inertia",
-    "effective_energy",
-)
+def _of_each(doc: str, of: Callable[[SteadyShape], Any], **column: Any) -> Field[Any]:
+    """A number or array of each shape of a list: one array, or a tuple of arrays of different lengths."""
+    return Field(doc, lambda shapes: stacked([of(shape) for shape in shapes]), **column)
 
 
-class SteadyShapes(Results[Any], Moving):
-    """The steady shapes of a system at one speed, ordered by half waves, then inclination of the lowest link.
+def _free_end(shape: SteadyShape, along: Floats) -> float:
+    if hasattr(shape, "span"):
+        raise UnavailableError("revchain.SteadyShapes: a held system has no free end")
+    return float(along[0])
+
+
+def stacked(rows: list[Any]) -> Any:
+    """Numbers, or arrays of one length, as one array; arrays of different lengths unchanged."""
+    return np.array(rows) if len({np.shape(row) for row in rows}) < 2 else tuple(rows)
+
+
+def _arrays_of_each(name: str, given: tuple[str, ...] = ()) -> Field[Any]:
+    """An array of each shape of a list. Its axis counts links, pins or places, unless it is given."""
+
+    def axes(shapes: Any) -> tuple[str, ...]:
+        if not len(shapes):
+            return ()
+        if given or hasattr(shapes[0], "arc_length"):
+            return given or ("place",)
+        return ("link" if len(getattr(shapes[0], name)) == len(shapes[0].inclination) else "pin",)
+
+    return _of_each(f"`SteadyShape.{name}` of each shape.", lambda shape: getattr(shape, name), axes=axes)
+
+
+class SteadyShapes(Results[SteadyShape], Moving, row="shape", title="{_heading}", notes=("{_note}", "{_out_of_plane}")):
+    """The steady shapes of a system, ordered by half waves, then inclination of the lowest link.
+
+    Its fields `half_waves`, `lowest_inclination` and so on have one number or array for each shape.
 
     Examples
     --------
     >>> import revchain as rc
     >>> shapes = rc.steady_shapes(rc.Chain.uniform_plummets(2, length=2.0), conical_height=0.1)
-    >>> [shape.half_waves for shape in shapes], shapes.complete
-    ([1, 2], True)
+    >>> shapes.half_waves, shapes.complete
+    (array([1, 2]), True)
     """
 
     __slots__ = ()
-    system: Field[Any] = Field("The chain, rig, cord, or held chain or cord.", part=True)
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2; 0 without gravity.", part=True)
-    conical_height: Field[float] = Field("Conical height of the speed, m; 0 without gravity.", part=True)
-    angular_speed: Field[float] = Field("The turning speed, rad/s.", part=True)
+    system: Field[Any] = Field("The chain, rig, cord, or held chain or cord.")
+    number: Field[Whole] = Field(
+        "Numbers of the rows of the table, from 1.", lambda s: np.arange(1, len(s) + 1), heading="shape", column="shape"
+    )
+    half_waves: Field[Whole] = Field(
+        "Half waves of each shape.", lambda s: np.array([shape.half_waves for shape in s], int), heading="half waves"
+    )
+    speed: Field[Floats | None] = Field(
+        "Speed of each shape, rad/s, if they have different speeds; else None.",
+        lambda s: np.array([shape.angular_speed for shape in s]) if s.angular_speed is None else None,
+        heading="speed", unit="rad/s",
+    )
+    lowest_inclination = _of_each(
+        "Inclination of the lowest link or of the lower end of each shape, rad.", lambda x: x.inclination[0],
+        heading=lambda s: "lowest link" if s._of_hanging_links else "lower end", unit="rad", digits=5,
+    )
+    top_inclination = _of_each(
+        "Inclination of the top link or of the upper end of each shape, rad.", lambda x: x.inclination[-1],
+        heading=lambda s: "top link" if s._of_hanging_links else "", unit="rad", digits=5,
+    )
+    free_end_offset = _of_each(
+        "Offset of the free end of each shape, m; not for held systems.", lambda x: _free_end(x, x.offset),
+        heading=lambda s: "free end: from axis" if s._of_hanging_links else "", unit="m", digits=5,
+    )
+    free_end_height = _of_each(
+        "Height of the free end of each shape above the support, m; not for held systems.",
+        lambda x: _free_end(x, x.height),
+        heading=lambda s: "above support" if s._of_hanging_links else "", unit="m", digits=5,
+    )
+    largest_offset = _of_each(
+        "Largest distance of a pin or place of each shape from the axis, m.", lambda x: float(np.abs(x.offset).max()),
+        heading=lambda s: "" if s._of_hanging_links else "largest distance from axis", unit="m", digits=5,
+    )
+    top_tension = _of_each(
+        "Tension at the upper end of each shape, N or in the unit of the weights.", lambda x: x.tension[-1],
+        heading="top tension", unit="force", digits=5,
+    )
+    span = _of_each("Span of each shape of a held system, m.", lambda x: x.span, heading="span", unit="m", digits=5)
+    error_bound = _of_each(
+        "`SteadyShape.error_bound` of each shape, rad.", lambda x: x.error_bound, heading="error (rad)"
+    )
+    inclination, offset, height = (_arrays_of_each(name) for name in ("inclination", "offset", "height"))
+    tension, reaction_inclination = (_arrays_of_each(name) for name in ("tension", "reaction_inclination"))
+    lower_pull, upper_pull = (_arrays_of_each(name, ("axis",)) for name in ("lower_pull", "upper_pull"))
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2; 0 without gravity.", fact=True)
+    angular_speed: Field[float | None] = Field(
+        "The turning speed, rad/s; None if the shapes were selected by another number.", fact=True
+    )
+    conical_height: Field[float | None] = Field(
+        "Conical height of the speed, m; 0 without gravity; None if the shapes were selected by another number.",
+        fact=True,
+    )
     complete: Field[bool] = Field(
-        "Whether it is proved that no shape is missing: for a chain or rig no hanging shape, or with "
-        "``hanging_only=False`` no shape at all; for a held system no shape with up to `max_half_waves` half waves. "
-        "False if both ends of a held chain are off the axis: shapes may then leave their plane, and such shapes are "
-        "not searched for.",
-        part=True,
+        "Whether it is proved that no shape is missing among those searched for: for a chain or rig the hanging "
+        "shapes, or with ``hanging_only=False`` all shapes; for a held system shapes with up to `max_half_waves` half "
+        "waves. False if both ends of a held chain are off the axis: shapes may then leave their plane, and such "
+        "shapes are not searched for. False if only one branch was searched (`mode`).",
+        fact=True,
+    )
+    hanging_only: Field[bool] = Field(
+        "Whether shapes with a link above its upper pin were left out (of a rig: with other links inverted than those "
+        "of the rig); false for cords and held systems.",
+        fact=True,
     )
     undecided: Field[Floats] = Field(
-        "Ranges of the inclination of the lowest link in which there may be more shapes, rad, shape (k, 2). For a held chain: "
-        "shapes in the plane of the axis and the ends.",
-        part=True,
-    )
-    cells: Field[int] = Field("Number of parts of the range that were examined.", part=True)
-    hanging_only: Field[bool] = Field(
-        "Whether shapes with a link above its upper pin were left out (of a rig: with other links inverted than those of the "
-        "rig); false for cords and held systems.",
-        lambda s: isinstance(s.system, Chain | Rig),
-        part=True,
+        "Ranges of the inclination of the lowest link in which there may be more shapes, rad, shape (k, 2). For a "
+        "held chain: shapes in the plane of the axis and the ends.",
+        fact=True,
     )
     missing: Field[tuple[int, ...]] = Field(
-        "For a held system: numbers of half waves without a shape, up to `max_half_waves`.", part=True
+        "For a held system: numbers of half waves without a shape, up to `max_half_waves`.", fact=True
     )
+    mode: Field[int | None] = Field("Number of the mode whose branch was searched; None if all shapes were.", fact=True)
+    cells: Field[int] = Field("Number of parts of the range that were examined.")
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw all shapes in one picture, true to scale, coloured by half waves.
@@ -552,6 +745,8 @@ class SteadyShapes(Results[Any], Moving):
 
     def _how_many(self, at: str = "") -> str:
         shapes = f"shape{'s' * (len(self) != 1)}"
+        if self.mode is not None:
+            return f"{len(self)} {shapes} of the branch of mode {self.mode}{at}"
         kind = {"": shapes, "hanging": f"hanging {shapes}", "given": f"{shapes} in the rig's posture"}[self._posture()]
         number = f"{len(self)} {kind}{at}"
         if self.missing:
@@ -564,32 +759,42 @@ class SteadyShapes(Results[Any], Moving):
 
         One link alone cannot stand, and below the first critical speed a chain has no shape in any posture.
         """
-        chain = isinstance(self.system, Chain)
-        if not self.hanging_only or (chain and self.complete and (len(self.system) == 1 or not len(self))):
+        inverted = getattr(self.system, "inverted", None)  # of a rig
+        if not self.hanging_only or (inverted is None and self.complete and (len(self.system) == 1 or not len(self))):
             return ""
-        return "hanging" if chain or not np.any(self.system.inverted) else "given"
+        return "hanging" if inverted is None or not np.any(inverted) else "given"
 
-    def _sheet(self, brief: bool = False) -> Sheet:
-        columns = [
-            Column("shape", np.arange(1, len(self) + 1), "shape"),
-            Column("half_waves", np.array([shape.half_waves for shape in self], int), "half waves"),
-        ]
-        notes = []
-        if not len(self) and self.complete and not isinstance(self.system, Held):
-            notes = ["it hangs straight: the speed is below the first critical speed"]
-        if len(self):
-            kind = type(self[0])
-            columns += kind._columns(self)
-            notes = [kind._note]
-        if isinstance(self.system, Held) and not self.system.is_planar:
-            notes.append("both ends are off the axis: shapes that leave the plane of the ends are not searched for")
-        if self._posture():
-            other = "with links above their pins" if self._posture() == "hanging" else "in other postures"
-            notes.append(f"hanging_only=False also looks for shapes {other}")
-        names = ("gravity", "angular_speed", "conical_height", "complete", "hanging_only", "undecided", "missing")
-        heading = self._how_many(at_speed(self.angular_speed))
-        facts = {name: getattr(self, name) for name in names}
-        return Sheet("shape", heading, columns, facts, notes, self.complete or isinstance(self.system, Held))
+    @property
+    def _of_hanging_links(self) -> bool:
+        return not (hasattr(self.system, "span") or (len(self) and hasattr(self[0], "arc_length")))
+
+    @property
+    def _heading(self) -> str:
+        words = self._how_many("" if self.angular_speed is None else at_speed(self.angular_speed))
+        if not self._posture():
+            return words
+        others = "with links above their pins" if self._posture() == "hanging" else "in other postures"
+        more = f"{others} (hanging_only=False)"
+        return f"{words}; {more} there may be more" if self.complete else f"{words}, also {more}"
+
+    @property
+    def _note(self) -> str:
+        if not len(self):
+            straight = self.complete and not self.missing
+            return "it hangs straight: the speed is below the first critical speed" if straight else ""
+        way = "upward" if hasattr(self[0], "span") else "downward"
+        proved = {bool(shape.proved) for shape in self}
+        error = "proved bound on every inclination" if proved == {True} else "estimated"
+        return f"inclinations: from the {way} vertical; error: {error}"
+
+    @property
+    def _out_of_plane(self) -> str:
+        if getattr(self.system, "is_planar", True):
+            return ""
+        return "both ends are off the axis: shapes that leave the plane of the ends are not searched for"
+
+    def _is_good(self) -> bool:
+        return self.complete or self.mode is not None or hasattr(self.system, "span")
 
 
 def at_speed(speed: float) -> str:
@@ -601,22 +806,14 @@ def _speed(height: float, gravity: float) -> float:
     return float(_core.conical_pendulum_angular_speed(np.asarray(height), np.asarray(gravity)))
 
 
-def table(rows: list[Floats]) -> Floats:
-    """Arrays of one length as rows of an array; unchanged if the lengths differ."""
-    return np.array(rows) if rows else np.empty((0, 0))
+def shape_made(found: Any, system: Any, gravity: float, direction: int = 1, **given: Any) -> SteadyShape:
+    """The shape from a compiled one. Bounds of hanging links are proved unless `given` says otherwise."""
+    given = {"proved": getattr(found, "proved", not hasattr(found, "arc_length")), **given}
+    return SteadyShape._made(found, system=system, gravity=gravity, direction=direction, **given)
 
 
-def shapes_made(
-    found: _core.SteadyShapes,
-    system: Chain | Rig,
-    height: float,
-    speed: float,
-    gravity: float,
-    direction: int,
-    hanging_only: bool,
-) -> SteadyShapes:
-    """The list of the compiled shapes of a chain or rig."""
-    given: dict[str, Any] = {"system": system, "gravity": gravity}
-    items = tuple(SteadyShape._made(shape, direction=direction, **given) for shape in found.shapes)
-    given |= {"conical_height": height, "angular_speed": speed, "hanging_only": hanging_only, "missing": ()}
-    return SteadyShapes._made(found, _items=items, **given)
+def shapes_made(found: Any, system: Any, gravity: float, direction: int, **given: Any) -> SteadyShapes:
+    """The list of the compiled shapes of a system at one speed; `given` holds the speed and what was searched."""
+    speed = {"angular_speed": given["angular_speed"]} if hasattr(system, "span") else {}
+    items = tuple(shape_made(shape, system, gravity, direction, **speed) for shape in found.shapes)
+    return SteadyShapes._made(found, _items=items, system=system, gravity=gravity, **{"mode": None, **given})

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from itertools import repeat
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -18,8 +19,7 @@ if TYPE_CHECKING:
 MOST_ROWS = 20
 
 
-@dataclass(frozen=True, slots=True)
-class Column:
+class Column(NamedTuple):
     """One quantity: a number for each row, or an array whose first axis counts the rows.
 
     Attributes
@@ -38,6 +38,8 @@ class Column:
         Values to print instead, such as degrees or words.
     left : bool
         Whether printed tables align the column on the left.
+    unit : str
+        Unit of `values`.
     """
 
     name: str
@@ -47,19 +49,28 @@ class Column:
     axes: tuple[str, ...] = ()
     shown: Any = None
     left: bool = False
+    unit: str = ""
 
-    def cell(self, row: int) -> str:
-        """Text of a row in a printed table."""
-        value = (self.values if self.shown is None else self.shown)[row]
-        if isinstance(value, str):
-            return value
-        if isinstance(value, bool | np.bool_):
-            return "yes" if value else "no"
-        if isinstance(value, int | np.integer):
-            return f"{value:,}"
-        if np.ndim(value):
-            return f"{len(value):,}"
-        return f"{value:.1e}" if self.name.endswith(("error_bound", "error_estimate")) else digits(value, self.digits)
+    def texts(self, rows: Any) -> list[str]:
+        """The cells of some rows in a printed table."""
+        values = self.values if self.shown is None else self.shown
+        if isinstance(values, np.ndarray) and values.ndim == 1:
+            values = values.tolist()
+        numbers = ".1e" if self.name.endswith(("error_bound", "error_estimate")) else f"#.{self.digits}g"
+        found: list[str] = []
+        for row in rows:
+            value = values[row]
+            if isinstance(value, str):
+                found.append(value)
+            elif isinstance(value, bool | np.bool_):
+                found.append("yes" if value else "no")
+            elif isinstance(value, int | np.integer):
+                found.append(f"{value:,}")
+            elif isinstance(value, float | np.floating):
+                found.append(format(value, numbers).removesuffix("."))
+            else:
+                found.append(f"{len(value):,}")
+        return found
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,8 +110,8 @@ class Sheet:
 def speed_columns(speed: Any, digits: int = 6) -> list[Column]:
     """Columns of the speeds, which are given in rad/s, in rad/s and in rpm."""
     return [
-        Column("angular_speed", speed, "speed (rad/s)", digits),
-        Column("rpm", speed * (30 / math.pi), "speed (rpm)", digits),
+        Column("angular_speed", speed, "speed (rad/s)", digits, unit="rad/s"),
+        Column("rpm", speed * (30 / math.pi), "speed (rpm)", digits, unit="rpm"),
     ]
 
 
@@ -111,27 +122,30 @@ def digits(number: float, count: int) -> str:
 
 def cells(sheet: Sheet) -> tuple[list[str], list[list[str]], list[str]]:
     """Headings, the printed rows as text, and the lines below."""
-    shown = [column for column in sheet.columns if column.heading]
-    if not shown:
+    size = len(sheet)
+    rows: Any = range(size)
+    if size > MOST_ROWS:
+        rows = np.linspace(0, size - 1, MOST_ROWS).round().astype(int).tolist() if sheet.spread else range(MOST_ROWS)
+    headings, columns = [], []
+    for column in sheet.columns:
+        if column.heading:
+            headings.append(column.heading)
+            columns.append(column.texts(rows))
+    if not headings:
         return [], [], sheet.notes
-    count = min(len(sheet), MOST_ROWS)
-    last = len(sheet) if sheet.spread else count
-    rows = [[column.cell(int(k)) for column in shown] for k in np.linspace(0, last - 1, count).round()]
-    hidden = len(sheet) - count
-    return [column.heading for column in shown], rows, ([f"and {hidden:,} more"] if hidden > 0 else []) + sheet.notes
+    notes = [f"and {size - MOST_ROWS:,} more", *sheet.notes] if size > MOST_ROWS else sheet.notes
+    return headings, [*map(list, zip(*columns, strict=True))], notes
 
 
 def as_text(sheet: Sheet) -> str:
     """The table that a prompt shows."""
     headings, rows, notes = cells(sheet)
-    widths = [max(map(len, column)) for column in zip(headings, *rows, strict=True)] if rows else []
-    left = [column.left for column in sheet.columns if column.heading]
-
-    def line(row: list[str]) -> str:
-        places = zip(row, widths, left, strict=True)
-        return "  ".join(cell.ljust(width) if words else cell.rjust(width) for cell, width, words in places).rstrip()
-
-    lines = [line(row) for row in [headings, *rows]] if rows else []
+    padded, table = [], zip(headings, *rows, strict=True)
+    for column in sheet.columns if rows else []:
+        if column.heading:
+            cells_of = next(table)
+            padded.append([*map(str.ljust if column.left else str.rjust, cells_of, repeat(max(map(len, cells_of))))])
+    lines = map(str.rstrip, map("  ".join, zip(*padded, strict=True)))
     return "\n".join([sheet.heading, *lines, *notes])
 
 
@@ -151,9 +165,13 @@ def as_html(sheet: Sheet) -> str:
 
 def as_dict(sheet: Sheet) -> dict[str, Any]:
     """Facts, then a dictionary for each row."""
+    return {**plain(sheet.facts), f"{sheet.row}s": as_rows(sheet)}
+
+
+def as_rows(sheet: Sheet) -> list[dict[str, Any]]:
+    """A dictionary for each row."""
     columns = {column.name: plain(column.values) for column in sheet.columns}
-    rows = [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
-    return {**plain(sheet.facts), f"{sheet.row}s": rows}
+    return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
 
 
 def plain(value: Any) -> Any:
@@ -163,7 +181,7 @@ def plain(value: Any) -> Any:
     if isinstance(value, np.ndarray | np.generic):
         if value.dtype == np.longdouble:
             value = value.astype(np.float64)
-        return plain(value.tolist())
+        return plain(value.tolist()) if value.dtype.kind in "cO" else value.tolist()
     if isinstance(value, list | tuple):
         return [plain(item) for item in value]
     return [value.real, value.imag] if isinstance(value, complex) else value
@@ -185,14 +203,10 @@ def as_csv(sheet: Sheet) -> str:
 
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(column.name for column in sheet.columns)
-    columns = [[_cell(value) for value in plain(column.values)] for column in sheet.columns]
-    writer.writerows(zip(*columns, strict=True))
+    writer.writerow([column.name for column in sheet.columns])
+    for row in zip(*[plain(column.values) for column in sheet.columns], strict=True):
+        writer.writerow([" ".join(map(repr, value)) if isinstance(value, list) else value for value in row])
     return text.getvalue()
-
-
-def _cell(value: Any) -> Any:
-    return " ".join(map(repr, value)) if isinstance(value, list) else value
 
 
 def as_dataframe(sheet: Sheet) -> Any:
@@ -210,14 +224,18 @@ def as_dataset(sheet: Sheet) -> Dataset:
     """The table as an xarray data set: the first axis counts the rows; facts are variables (arrays) or attributes."""
     xarray = require("xarray", "netcdf", "to_xarray")
     variables = {
-        column.name: ((sheet.row, *column.axes), padded(column.values, 1 + len(column.axes)))
+        column.name: (
+            (sheet.row, *column.axes),
+            padded(column.values, 1 + len(column.axes)),
+            {"units": column.unit} if column.unit else {},
+        )
         for column in sheet.columns
         if column.name != sheet.row
     }
-    coordinates = {column.name: column.values for column in sheet.columns if column.name == sheet.row}
+    coordinates = {column.name: np.asarray(column.values) for column in sheet.columns if column.name == sheet.row}
     for name, value in sheet.facts.items():
         if isinstance(value, np.ndarray):
-            variables[name] = tuple(f"{name}_axis_{k}" for k in range(value.ndim)), value
+            variables[name] = tuple(f"{name}_axis_{k}" for k in range(value.ndim)), value, {}
     facts = {name: value for name, value in sheet.facts.items() if name not in variables and value is not None}
     data: Dataset = xarray.Dataset(variables, coordinates, {name: _attribute(value) for name, value in facts.items()})
     return data

@@ -7,12 +7,11 @@ from typing import Any
 
 from ..systems.numbers import Floats
 from .base import Field, Result
-from .sheet import Column, Sheet
 
 Pair = tuple[float, float]
 
 
-class Tuned(Result):
+class Tuned(Result, row="value", title="Tuned: {summary}"):
     """The value of a datum for which a mode has a given speed; returned by `tune`.
 
     Examples
@@ -30,39 +29,32 @@ class Tuned(Result):
     __slots__ = ()
     status: Field[str] = Field(
         "``'found'``; ``'no_value'`` if no value in the range gives the speed; ``'undecided'`` if none was found but it is not "
-        "proved that there is none.",
-        part=True,
+        "proved that there is none.", fact=True,
     )
-    vary: Field[str] = Field("Path of the datum, as given.", part=True)
-    system: Field[Any] = Field("The system with the new `value`; None if none was found.", part=True)
+    vary: Field[str] = Field("Path of the datum, as given.", fact=True)
+    system: Field[Any] = Field("The system with the new `value`; None if none was found.")
     value: Field[float | None] = Field(
         "The value nearest to the present one; for weights the nearest by ratio, or another within a few percent of it. None "
-        "if none was found.",
-        part=True,
+        "if none was found.", fact=True,
     )
     error_bound: Field[float | None] = Field(
         "Proved bound of the absolute error of `value`; for cords an estimate, as the bounds of their modes "
         "are. None if no value was found, and for stiffness, momentum and spin of a rig, which are computed to 1e-15; the "
-        "bound of the new rig's speed is then proved.",
-        part=True,
+        "bound of the new rig's speed is then proved.", fact=True,
     )
-    values: Field[Floats] = Field("All values found in the range, ascending.", part=True)
+    values: Field[Floats] = Field("All values found in the range, ascending.", heading="value", column="value")
     complete: Field[bool] = Field(
         "Whether `values` has all values in the range. For a weight of a chain it has only the nearest on either side of the "
-        "present value; in a search, those between neighbours of 65 values.",
-        part=True,
+        "present value; in a search, those between neighbours of 65 values.", fact=True,
     )
-    present: Field[float] = Field("Present value of the datum.", part=True)
-    between: Field[Pair] = Field("Range of the search.", part=True)
+    present: Field[float] = Field("Present value of the datum.", fact=True)
+    between: Field[Pair] = Field("Range of the search.", fact=True)
     reachable: Field[Pair | None] = Field(
         "If no value was found: the smallest and the largest conical height in the range, at 33 or 65 values; None for a "
-        "datum with one value for each speed.",
-        part=True,
+        "datum with one value for each speed.", fact=True,
     )
+    summary: Field[str] = Field("The result in words.", lambda t: t._words())
 
-    def _sheet(self, brief: bool = False) -> Sheet:
-        names = ("status", "vary", "value", "error_bound", "complete", "present", "between", "reachable")
+    def _words(self) -> str:
         found = f"= {self.value:.6g}" if self.value is not None else self.status.replace("_", " ")
-        heading = f"Tuned: {self.vary} {found}{', all found' if self.complete else ''}"
-        columns = [Column("value", self.values, "value")]
-        return Sheet("value", heading, columns, {name: getattr(self, name) for name in names}, good=self.status == "found")
+        return f"{self.vary} {found}{', all found' if self.complete else ''}"

@@ -14,8 +14,9 @@ from .. import _core
 from ..questions.branches import branches
 from ..questions.explain import explain
 from ..questions.modes import find_modes
-from ..questions.response import response, swing
+from ..questions.response import response
 from ..questions.shapes import steady_shapes
+from ..questions.swing import swing
 from ..systems.chain import Chain
 from ..systems.held import Held
 from ..systems.rig import Rig
@@ -35,7 +36,7 @@ def arguments(question: str, table: Table, system: System | None, numbers: Numbe
 
     If the system was refused (None), only the keys that do not depend on it are checked.
     """
-    numbers = numbers.of(question)
+    numbers = numbers.of(f"ask.{question}")
     for field in fields_of(type(table)):
         systems, reason = _ONLY.get((question, field.name), (object, ""))
         value = getattr(table, field.name)
@@ -70,7 +71,7 @@ def _modes(table: AskModes, system: System | None, numbers: Numbers) -> Given:
         )
         if given[name][0] >= given[name][1]:
             numbers.refuse(name, f"its low end must lie below its high end, got {written([low, high])}")
-    most = system.mode_count if isinstance(system, Chain | Held) else None
+    most = None if system is None else system.mode_count
     if most is not None:
         _check_numbers(table, most, numbers)
     if table.rtol is not UNSET:
@@ -102,7 +103,7 @@ def _explain(table: AskExplain, system: System | None, numbers: Numbers) -> Give
     modes = AskModes(count=table.count, first=table.first, rtol=table.rtol)
     given = _modes(modes, system, numbers)
     if given.get("count") == "all":
-        there = system.mode_count if isinstance(system, Chain) else DEFAULT_MODES
+        there = DEFAULT_MODES if system is None or system._kind != "chain" else system.mode_count or 1
         given["count"] = max(there - given.get("first", 1) + 1, 1)
     return given
 
@@ -125,7 +126,7 @@ def _shapes(table: AskShapes, system: System | None, numbers: Numbers) -> Given:
 
 def _response(table: AskResponse, system: System | None, numbers: Numbers) -> Given:
     name, value = _one_speed(table, ("angular_speed", "conical_height"), numbers)
-    both_ways = name == "angular_speed" and isinstance(system, Rig) and system.has_momentum
+    both_ways = name == "angular_speed" and system is not None and system.has_momentum
     given: Given = {name: _spread(name, value, "any" if both_ways else "positive", numbers)}
     if not np.all(given[name]):
         numbers.refuse(name, "must not be 0")
@@ -160,10 +161,11 @@ def _swing(table: AskSwing, system: System | None, numbers: Numbers) -> Given:
         if start is UNSET:
             continue
         given[name] = _spread(name, start, "any", numbers)
-        moving = system.size if isinstance(system, Chain | Rig) else 0
-        if isinstance(system, Rig) and math.isfinite(system.support.stiffness):
-            moving += 1
-        if isinstance(system, Chain | Rig) and len(start) != moving:
+        if system is None or system._is_cord or system._is_held:
+            continue
+        support = system._support
+        moving = system.size + (support is not None and math.isfinite(support.stiffness))
+        if len(start) != moving:
             each = f"must have a number for each of the {moving} pins that move"
             numbers.refuse(name, f"{each}, free end first, got {len(start)}")
     given["time"] = _spread("time", table.time, "any", numbers)
@@ -193,6 +195,6 @@ def answered(question: str, system: Any, given: Given, gravity: float, progress:
     if question == "modes":
         return find_modes(system, **given, progress=progress)
     if question == "swing":
-        return swing(system, given.pop("offset"), given.pop("velocity", None), given.pop("time"), **given)
+        return swing(system, **given)
     function: Any = {"shapes": steady_shapes, "response": response, "branches": branches}[question]
     return function(system, **given)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The chain from the tables of a scene: units, masses to weights, repeats; each error has its key."""
+"""The chain or cord from the tables of a scene: units, masses to weights, repeats; each error has its key."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from ..systems.numbers import Floats
 from ..systems.units import si_value
 from .error import Problem, SceneError
 from .parse import without_consequences, written
-from .tables import MOST_LINKS, Displaced, Flywheel, Link, Support, TaperedChain, UniformChain, Whole
+from .tables import MOST_LINKS, Link, Support, Table, TaperedChain, UniformChain, number_fields
 from .tables import Cord as CordTable
 
-Weighed = Link | Whole | Flywheel | Displaced | Support
 Links = list[tuple[int, Link]]  # lowest first, each with its number in the file
+Given = dict[str, float]
 
 
 class Numbers:
@@ -49,6 +49,7 @@ class Numbers:
         return "mass" if self.by_mass else "weight"
 
     def refuse(self, key: str, reason: str) -> None:
+        """Note an error of a key of this table."""
         self.problems.append(Problem(0, 0, f"{self.table}.{key}".strip("."), reason))
 
     def done(self) -> None:
@@ -57,6 +58,7 @@ class Numbers:
             raise SceneError(self.source, problems=without_consequences(self.problems))
 
     def value(self, key: str, given: object, quantity: str, sign: str, finite: bool = True) -> float:
+        """A number or text with a unit in the SI unit of the quantity."""
         if given is UNSET:  # missing or of a wrong kind; the error is noted already
             return math.nan
         assert isinstance(given, float | int | str)
@@ -76,37 +78,43 @@ class Numbers:
         self.refuse(key, f"must {must}, got {written(given)}")
         return math.nan
 
-    def weight(self, table: Weighed, sign: str, prefix: str = "") -> float:
-        """Mass or weight from the keys `weight` and `mass`, or from these keys with a prefix (`added_`, `tip_`)."""
-        weight, mass = (getattr(table, prefix + name) for name in ("weight", "mass"))
-        if (weight is UNSET) == (mass is UNSET):
-            if weight is UNSET:
-                self.refuse("", f"{prefix}mass (kg) or {prefix}weight (N) is missing")
-            else:
-                self.refuse(f"{prefix}weight", f"is given beside {prefix}mass: give one of them, not both")
-            return math.nan
-        name, given, factor = ("mass", mass, 1.0 if self.by_mass else self.gravity)
-        if mass is UNSET:
-            name, given, factor = ("weight", weight, 1 / self.gravity if self.by_mass else 1.0)
-        found = self.value(prefix + name, given, name, sign)
-        if math.isfinite(found) and math.isfinite(factor) and not math.isfinite(found * factor):
-            self.refuse(prefix + name, f"is too large, got {written(given)}")
-        return found * factor
+    def read(self, table: Table) -> Given:
+        """All numbers given in the table, by key; as `heavy`, `tip_heavy` and `added_heavy` its masses or weights."""
+        found: Given = {}
+        for name, sign, required in number_fields(type(table)):
+            given = getattr(table, name)
+            if given is not UNSET or required:
+                found[name] = self.value(name, given, name, sign)
+        for prefix in ("", "tip_", "added_"):
+            if hasattr(table, f"{prefix}mass"):
+                self._weigh(table, prefix, found)
+        return found
 
-    def weight_if_given(self, table: Weighed, prefix: str = "") -> float:
-        """Mass or weight as of `weight`; 0 if it is left out."""
-        given = any(getattr(table, prefix + name) is not UNSET for name in ("weight", "mass"))
-        return self.weight(table, "not negative", prefix) if given else 0.0
+    def _weigh(self, table: Table, prefix: str, found: Given) -> None:
+        """Add the mass or weight from the keys `mass` and `weight` with a prefix; 0 where it may be left out."""
+        given = [f"{prefix}{name}" for name in ("weight", "mass") if f"{prefix}{name}" in found]
+        heavy = 0.0 if prefix or isinstance(table, Support) else math.nan
+        if len(given) == 2:
+            self.refuse(given[0], f"is given beside {given[1]}: give one of them, not both")
+            heavy = math.nan
+        elif given:
+            factor = 1.0 if given[0].endswith(self.heavy) else 1 / self.gravity if self.by_mass else self.gravity
+            heavy = found[given[0]] * factor
+            if math.isinf(heavy):
+                self.refuse(given[0], f"is too large, got {written(getattr(table, given[0]))}")
+        elif math.isnan(heavy):
+            self.refuse("", "mass (kg) or weight (N) is missing")
+        found[f"{prefix}heavy"] = heavy
 
 
-def whole(table: UniformChain | TaperedChain | CordTable, numbers: Numbers) -> Chain | Cord | None:
-    """The chain or cord; None if something is missing or of a wrong kind, which is noted already."""
-    length = numbers.value("length", table.length, "length", "positive")
-    given = {"length": length, numbers.heavy: numbers.weight(table, "positive")}
-    tip = numbers.weight_if_given(table, "tip_")
+def whole(name: str, table: UniformChain | TaperedChain | CordTable, numbers: Numbers) -> Chain | Cord | None:
+    """The chain or cord of the table of that name; None if something in it is wrong, which is noted already."""
+    numbers = numbers.of(name)
+    found = numbers.read(table)
     numbers.done()
-    if math.isnan(sum(given.values()) + tip):
+    if math.isnan(sum(found.values())):
         return None
+    given, tip = {"length": found["length"], numbers.heavy: found["heavy"]}, found["tip_heavy"]
     try:
         if isinstance(table, CordTable):
             return Cord(**given, density=table.density, **({f"tip_{numbers.heavy}": tip} if tip else {}))
@@ -122,38 +130,40 @@ def whole(table: UniformChain | TaperedChain | CordTable, numbers: Numbers) -> C
 
 def chain_of_links(links: Links, numbers: Numbers) -> Chain | None:
     """The chain of the links, lowest first, each with its number in the file; None as for `whole`."""
-    if (count := sum(link.repeat for _, link in links)) > MOST_LINKS:
+    repeats = [link.repeat for _, link in links]
+    if (count := sum(repeats)) > MOST_LINKS:
         more = "use fewer and longer links, or [cord]"
         reason = f"must be at most {MOST_LINKS:,} together with their repeats, got {count:,}; {more}"
         raise SceneError(numbers.source, "links", reason)
-    places = [numbers.of(f"links[{index}]") for index, _ in links]
-    bodies = [_body(link, place) for place, (_, link) in zip(places, links, strict=True)]
-    tips = [place.weight_if_given(link, "tip_") for place, (_, link) in zip(places, links, strict=True)]
-    for nth, (place, (_, link)) in enumerate(zip(places, links, strict=True)):
-        _check_joints(link, tips[nth], [each for _, each in links[nth + 1 : nth + 2]], place)
+    bodies, tips = [], []
+    for nth, (index, link) in enumerate(links):
+        place = numbers.of(f"links[{index}]")
+        found = place.read(link)
+        bodies.append(_body(link, found, place))
+        tips.append(found["tip_heavy"])
+        _check_joints(link, tips[-1], [above for _, above in links[nth + 1 : nth + 2]], place)
     numbers.done()
     if math.isnan(sum(map(sum, bodies)) + sum(tips)):
         return None
-    repeats = [link.repeat for _, link in links]
     columns: list[Floats] = [np.repeat(np.array(column, dtype=float), repeats) for column in zip(*bodies, strict=True)]
-    heavy, length, centroid, radius = columns or [np.empty(0)] * 4
+    heavy, length, centroid, radius = columns
     given: dict[str, Any] = {numbers.heavy: heavy, "length": length}
     if radius.any() or not np.array_equal(centroid, length):
         given |= {"centroid": centroid, "radius_of_gyration": radius}
+    firsts = np.cumsum([0, *repeats]).tolist()
     if any(link.name for _, link in links):
-        first = 0
-        given["names"] = []
-        for _, link in links:
-            given["names"] += [link.name or f"links[{k}]" for k in range(first, first + link.repeat)]
-            first += link.repeat
+        given["names"] = [
+            link.name or f"links[{k}]"
+            for first, (_, link) in zip(firsts, links, strict=False)
+            for k in range(first, first + link.repeat)
+        ]
     try:
         chain = Chain(**given)
-        firsts = np.cumsum([0, *repeats])
-        for nth in reversed(range(len(links))):  # from the top, so that the numbers of pins hold
-            if tips[nth]:
-                chain = chain.with_body(**{numbers.heavy: tips[nth]}, pin=int(firsts[nth]))
-            if links[nth][1].clamped:
-                chain = chain.clamped(int(firsts[nth]))
+        for first, tip, (_, link) in list(zip(firsts, tips, links, strict=False))[::-1]:  # so that pins keep numbers
+            if tip:
+                chain = chain.with_body(**{numbers.heavy: tip}, pin=first)
+            if link.clamped:
+                chain = chain.clamped(first)
         return chain
     except ValueError as error:
         raise of_file(error, numbers.source, "links", links) from None
@@ -174,32 +184,29 @@ def _check_joints(link: Link, tip: float, above: list[Link], numbers: Numbers) -
         numbers.refuse("clamped", "needs repeat = 1, here and in the link above")
 
 
-def _body(link: Link, numbers: Numbers) -> tuple[float, float, float, float]:
-    """Weight, length, centroid and radius of gyration of a link."""
-    length = numbers.value("length", link.length, "length", "positive")
-    weight = numbers.weight(link, "not negative")
+def _body(link: Link, given: Given, numbers: Numbers) -> tuple[float, float, float, float]:
+    """Mass or weight, length, centroid and radius of gyration of a link."""
+    heavy, length = given["heavy"], given["length"]
     if link.kind is not UNSET or link.centroid is UNSET:
         for key in ("centroid", "pendulum_length", "radius_of_gyration"):
-            if getattr(link, key) is not UNSET:
+            if key in given:
                 reason = "needs centroid beside it" if link.kind is UNSET else f'does not go with kind = "{link.kind}"'
                 numbers.refuse(key, reason)
-        rod = link.kind == "rod"
-        return (weight, length, length / 2, length / math.sqrt(12)) if rod else (weight, length, length, 0)
-    centroid = numbers.value("centroid", link.centroid, "length", "any")
-    if (link.pendulum_length is UNSET) == (link.radius_of_gyration is UNSET):
+        return (heavy, length, length / 2, length / math.sqrt(12)) if link.kind == "rod" else (heavy, length, length, 0)
+    centroid, radius = given["centroid"], given.get("radius_of_gyration", math.nan)
+    if ("pendulum_length" in given) == ("radius_of_gyration" in given):
         numbers.refuse("centroid", "needs either pendulum_length or radius_of_gyration beside it")
-        return weight, length, centroid, math.nan
-    if link.radius_of_gyration is not UNSET:
-        radius = numbers.value("radius_of_gyration", link.radius_of_gyration, "length", "not negative")
-        return weight, length, centroid, radius
-    pendulum = numbers.value("pendulum_length", link.pendulum_length, "length", "any")
-    squared = centroid * (pendulum - centroid)
-    if centroid == 0:
-        numbers.refuse("pendulum_length", "does not determine the inertia if centroid is 0; give radius_of_gyration")
-    elif not math.isnan(squared) and not 0 <= squared < math.inf:
-        product = f"centroid (pendulum_length - centroid) is {squared:g}"
-        numbers.refuse("pendulum_length", f"makes the radius of gyration imaginary: {product}")
-    return weight, length, centroid, math.sqrt(squared) if 0 <= squared < math.inf else math.nan
+    elif "pendulum_length" in given:
+        squared = centroid * (given["pendulum_length"] - centroid)
+        if centroid == 0:
+            reason = "does not determine the inertia if centroid is 0; give radius_of_gyration"
+            numbers.refuse("pendulum_length", reason)
+        elif 0 <= squared < math.inf:
+            radius = math.sqrt(squared)
+        elif not math.isnan(squared):
+            product = f"centroid (pendulum_length - centroid) is {squared:g}"
+            numbers.refuse("pendulum_length", f"makes the radius of gyration imaginary: {product}")
+    return heavy, length, centroid, radius
 
 
 def without_place(error: object) -> str:

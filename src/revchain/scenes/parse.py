@@ -13,9 +13,8 @@ from contextlib import contextmanager
 from difflib import get_close_matches
 from functools import cache
 from itertools import chain
-from pathlib import Path
 from types import UnionType
-from typing import Annotated, Any, Literal, TypeVar, Union, cast, get_args, get_origin
+from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin
 
 import msgspec
 
@@ -85,12 +84,15 @@ def opened(path: str | os.PathLike[str]) -> Iterator[tuple[Any, list[Problem]]]:
 
 def _check_levels(raw: Any) -> None:
     """A RecursionError where tables and lists lie too deep inside one another for the functions that read them."""
-    level = [raw]
-    for _ in range(MOST_LEVELS + 1):
-        inside = (each.values() if isinstance(each, dict) else each for each in level if isinstance(each, dict | list))
-        level = [item for items in inside for item in items]
-    if level:
-        raise RecursionError
+    level, levels = [raw], 0
+    while level:
+        levels += 1
+        if levels > MOST_LEVELS + 1:
+            raise RecursionError
+        inside: list[Any] = []
+        for each in level:
+            inside += each.values() if isinstance(each, dict) else each if isinstance(each, list) else ()
+        level = inside
 
 
 def is_json(source: str) -> bool:
@@ -236,23 +238,26 @@ def convert(raw: Any, kind: type[Kind], source: str, problems: list[Problem] | N
     """
     if isinstance(raw, dict) and "vary" in _known_keys(kind) and (scene := [key for key in SYSTEMS if key in raw]):
         raise SceneError(source, scene[0], f"is of a scene, not of a study: revchain run {source}")
+    found: list[Problem] = []
     try:
-        converted = msgspec.convert(raw, kind)
+        try:
+            converted = msgspec.convert(raw, kind)
+        except msgspec.ValidationError as error:
+            converted = _table(raw, kind, "", found)
+            found = found or [Problem(0, 0, "", str(error))]
+            if problems is None or converted is msgspec.UNSET:
+                raise SceneError(source, problems=found) from None
         msgspec.json.encode(converted)
-        return converted
     except UnicodeEncodeError as error:
         reason = f"has text that is not Unicode: a lone surrogate in {written(error.object)}; remove it"
-        raise SceneError(source, "", reason) from None
-    except msgspec.ValidationError as error:
-        found: list[Problem] = []
-        right = _table(raw, kind, "", found)
-        found = found or [Problem(0, 0, "", str(error))]
-        if problems is None or right is msgspec.UNSET:
-            raise SceneError(source, problems=found) from None
-        problems += found
-        return cast(Kind, right)
+        raise SceneError(source, problems=[*found, Problem(0, 0, "", reason)]) from None
+    except SceneError:
+        raise
     except (RecursionError, OverflowError, ValueError) as error:
         raise SceneError(source, "", f"cannot be read: {error}") from None
+    if problems is not None:
+        problems += found
+    return converted
 
 
 def _known_keys(kind: type) -> list[str]:

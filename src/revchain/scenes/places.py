@@ -18,65 +18,58 @@ class _Scanner:
     """A reader of valid text that notes where each key and each item of a list starts."""
 
     def __init__(self, text: str) -> None:
-        found = (match for match in _TOKEN.finditer(text) if not match.group().startswith("#"))
-        self.tokens = [(match.group(), match.start()) for match in found]
-        self.next = 0
+        self.rest = [(found[0], found.start()) for found in _TOKEN.finditer(text) if found[0][0] != "#"][::-1]
         self.places: dict[str, int] = {}
 
-    def token(self, skip_lines: bool = True) -> tuple[str, int]:
-        """The next token; empty at the end."""
-        while self.next < len(self.tokens):
-            self.next += 1
-            if not (skip_lines and self.tokens[self.next - 1][0] == "\n"):
-                return self.tokens[self.next - 1]
-        return "", 0
+    def next(self, skipped: str = "\n") -> tuple[str, int]:
+        """The next token, which stays the next one; empty at the end."""
+        while self.rest and self.rest[-1][0] in skipped:
+            self.rest.pop()
+        return self.rest[-1] if self.rest else ("", 0)
 
     def key(self, ends: str) -> list[str]:
         """The parts of a dotted key; the token after it is read, too."""
         parts: list[str] = []
-        while (word := self.token()[0]) and word not in ends:
+        while (word := self.next()[0]) and self.rest.pop() and word not in ends:
             parts += [_unquoted(word)] if word[0] in "\"'" else [part for part in word.split(".") if part]
         return parts
 
-    def value(self, path: str, ends: str = ",]}") -> None:
-        """A value at `path`, and all inside it."""
-        word, _ = self.token()
-        if word == "[":
-            number = 0
-            while (opens := self.token())[0] not in ("]", ""):
-                if opens[0] != ",":
-                    self.next -= 1
-                    self.places[f"{path}[{number}]"] = opens[1]
-                    self.value(f"{path}[{number}]")
-                    number += 1
-        elif word == "{":
-            while (opens := self.token())[0] not in ("}", ""):
-                if opens[0] != ",":
-                    self.next -= 1
-                    self.entry(path, opens[1])
-        else:
-            while self.next < len(self.tokens) and self.tokens[self.next][0] not in ends + "\n":
-                self.next += 1
-
-    def entry(self, path: str, at: int, ends: str = ",]}") -> None:
+    def entry(self, path: str, ends: str = ",]}") -> None:
         """A key and its value."""
+        _, at = self.next()
         for part in self.key("=:"):
             path = joined(path, part)
             self.places.setdefault(path, at)
         self.value(path, ends)
 
+    def value(self, path: str, ends: str = ",]}") -> None:
+        """A value at `path`, and all inside it."""
+        opens, number = self.next()[0], 0
+        if opens not in ("[", "{"):
+            while self.rest and self.rest[-1][0] not in ends + "\n":
+                self.rest.pop()
+            return
+        self.rest.pop()
+        while (token := self.next(",\n"))[0] not in ("]", "}", ""):
+            if opens == "{":
+                self.entry(path)
+            else:
+                self.places[item := f"{path}[{number}]"] = token[1]
+                self.value(item)
+                number += 1
+        del self.rest[-1:]
+
     def document(self) -> None:
         """A whole TOML file."""
         table, counts = "", dict[str, int]()
-        while (opens := self.token())[0]:
+        while (opens := self.next())[0]:
             if opens[0] != "[":
-                self.next -= 1
-                self.entry(table, opens[1], "")
+                self.entry(table, "")
                 continue
-            listed = self.tokens[self.next][0] == "["
-            self.next += listed
-            table = ""
-            parts = self.key("]")
+            self.rest.pop()
+            if listed := self.rest[-1][0] == "[":
+                self.rest.pop()
+            table, parts = "", self.key("]")
             for nth, part in enumerate(parts, 1):
                 table = joined(table, part)
                 self.places.setdefault(table, opens[1])
@@ -85,7 +78,8 @@ class _Scanner:
                 if table in counts:
                     table += f"[{counts[table] - 1}]"
                 self.places.setdefault(table, opens[1])
-            self.next += listed
+            if listed:
+                del self.rest[-1:]
 
 
 def joined(path: str, part: str) -> str:

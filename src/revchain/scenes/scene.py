@@ -1,56 +1,39 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Scene files: a system and questions about it. They are read and validated by msgspec."""
 
-from __future__ import annotations
-
-import math
 import os
 import re
+import weakref
 from collections.abc import Callable
-from typing import Annotated, Any, Literal, Self
+from typing import Any, Self
 
 import numpy as np
 from msgspec import UNSET, UnsetType, json, to_builtins
 
 from .. import _core
-from ..systems.chain import Chain
-from ..systems.cord import Cord as CordSystem
-from ..systems.held import Held as HeldSystem
-from ..systems.numbers import STANDARD_GRAVITY, text
-from ..systems.rig import Rig
-from ..systems.rig import Support as EndSupport
+from ..systems.numbers import text
 from . import parse
 from .answer import SPEEDS, answered, arguments
-from .ask import QUESTIONS, TABLES, Ask, AskExplain, AskModes
-from .chain import Links, Numbers, chain_of_links, of_file, whole, without_place
+from .ask import QUESTIONS, TABLES, AskExplain, AskModes
+from .chain import Numbers, of_file
 from .error import Problem, SceneError
-from .rig import is_rigged, rig_of, support_numbers
-from .tables import (
-    BESIDE,
-    SYSTEMS,
-    Cord,
-    Held,
-    Link,
-    Positive,
-    Support,
-    Table,
-    TaperedChain,
-    UniformChain,
-    fields_of,
-    says,
-)
-from .upgrade import old_keys
+from .system import System as System
+from .system import Tables, system_of
+from .system import is_by_mass as is_by_mass
+from .tables import BESIDE, SYSTEMS, Table
 
 __all__ = ["Scene", "load_scene"]
 
-System = Chain | Rig | CordSystem | HeldSystem
 EXCLUSIVE = (*SPEEDS, "count", "first")
+# By the id of each living scene. A struct with `dict=True` could hold this, but msgspec before 0.21 crashes with it on
+# Python 3.13; a frozen struct with lists has no hash, so that it is no key of a WeakKeyDictionary.
+_MADE: dict[int, tuple["weakref.ref[Scene]", dict[str, Any]]] = {}
 
 
 def _asking(question: str, what: str, result: str, example: str) -> Callable[..., Any]:
     """The method of `Scene` that answers one question."""
 
-    def ask(self: Scene, **changed: Any) -> Any:
+    def ask(self: Any, **changed: Any) -> Any:
         return self._answer(question, changed)
 
     indented = example.replace("\n", "\n        ")
@@ -81,7 +64,7 @@ def _asking(question: str, what: str, result: str, example: str) -> Callable[...
     return ask
 
 
-class Scene(Table, frozen=True):
+class Scene(Tables, frozen=True, weakref=True):
     """A scene file: a system, its gravity and questions about it.
 
     Notes
@@ -107,24 +90,8 @@ class Scene(Table, frozen=True):
     (2, True)
     """
 
-    schema_version: Annotated[Literal[2], says("Version of this format.")] = 2
-    title: Annotated[str, says("Title in one line.")] = ""
-    description: Annotated[str, says("Description of any length.")] = ""
-    gravity: Annotated[Positive, says("Acceleration of gravity (m/s^2).")] = STANDARD_GRAVITY
-    order: Annotated[Literal["free end first", "support first"], says("Order of the links.")] = "free end first"
-    links: Annotated[list[Link] | UnsetType, says("The links, in the given order.")] = UNSET
-    uniform_chain: Annotated[UniformChain | UnsetType, says("Equal links, instead of links.")] = UNSET
-    tapered_chain: Annotated[
-        TaperedChain | UnsetType, says("Links cut from a tapering cord, instead of links.")
-    ] = UNSET
-    cord: Annotated[Cord | UnsetType, says("A flexible cord, instead of links.")] = UNSET
-    support: Annotated[Support | UnsetType, says("Support of the chain; a firm point on the axis if left out.")] = UNSET
-    fluid: Annotated[Literal["still", "turning"], says("Motion of the fluid: at rest, or turning with the chain.")] = "still"
-    held: Annotated[Held | UnsetType, says("Data of a chain or cord that is held at both ends.")] = UNSET
-    ask: Annotated[Ask, says("Questions to answer.")] = Ask()
-
     @classmethod
-    def from_dict(cls, data: dict[str, Any], source: str = "scene") -> Scene:
+    def from_dict(cls, data: dict[str, Any], source: str = "scene") -> Self:
         """Return a scene from plain data, as in a TOML or JSON file.
 
         Parameters
@@ -154,13 +121,10 @@ class Scene(Table, frozen=True):
         return cls._read(data, text("revchain.Scene.from_dict", "source", source), [])
 
     @classmethod
-    def _read(cls, data: Any, source: str, problems: list[Problem], in_doubt: bool = False) -> Self:
+    def _read(cls, data: Any, source: str, problems: list[Problem]) -> Self:
         """The scene; one error for all problems, with those of its syntax."""
-        if isinstance(data, dict):
-            if "vary" in data:
-                raise SceneError(source, "vary", f"is of a study, not of a scene: revchain sweep {source}")
-            if old := old_keys(data, in_doubt):
-                raise SceneError(source, problems=[*problems, *(Problem(0, 0, *each) for each in old)])
+        if isinstance(data, dict) and "vary" in data:
+            raise SceneError(source, "vary", f"is of a study, not of a scene: revchain sweep {source}")
         scene = parse.convert(data, cls, source, problems)
         if found := scene._problems(source, problems):
             raise SceneError(source, problems=[_named(each, scene) for each in found])
@@ -182,7 +146,7 @@ class Scene(Table, frozen=True):
         True
         """
         data: dict[str, Any] = to_builtins(self)
-        return {"schema_version": 2, **data} if old_keys(data) else data
+        return data
 
     def gravity_value(self) -> float:
         """Return the acceleration of gravity in m/s^2.
@@ -230,14 +194,12 @@ class Scene(Table, frozen=True):
         >>> rc.Scene.from_dict({"links": [{"mass": 2.0, "length": 0.4, "flywheel": wheel}]}).system()
         Rig of a chain of 1 link: 1 link with momentum
         """
-        system = self._system("scene")
-        assert system is not None  # else an error was raised
-        return system
+        return self._built()[0]
 
     @property
     def asks(self) -> tuple[str, ...]:
         """Names of the questions for which the scene has a table, out of modes, shapes, response, swing, branches."""
-        return tuple(name for name in QUESTIONS if getattr(self.ask, name) is not UNSET)
+        return tuple([name for name in QUESTIONS if getattr(self.ask, name) is not UNSET])
 
     modes = _asking("modes", "modes", "Modes", ">>> scene.modes(first=2).conical_height.round(6)\narray([0.25])")
     steady_shapes = _asking(
@@ -276,12 +238,13 @@ class Scene(Table, frozen=True):
 
     def _answer(self, question: str, changed: dict[str, Any], progress: _core.Progress | None = None) -> Any:
         """The answer to one question; `changed` are keys of its table with other values than those of the scene."""
-        numbers = Numbers("scene")
-        table, gravity, system = self._table(question, changed), self.gravity_value(), self.system()
-        given = arguments(question, table, system, numbers.of("ask"))
-        numbers.done()
+        (system, gravity), given = self._built(), None if changed else self._made().get(question)
+        if given is None:
+            numbers = Numbers("scene")
+            given = arguments(question, self._table(question, changed), system, numbers)
+            numbers.done()
         try:
-            return answered(question, system, given, gravity, progress)
+            return answered(question, system, dict(given), gravity, progress)
         except ValueError as error:
             raise of_file(error, "scene", "", self._bodies()) from None
 
@@ -303,106 +266,36 @@ class Scene(Table, frozen=True):
             raise SceneError("scene", problems=[each._replace(key=where + each.key) for each in problems])
         return table
 
+    def _made(self) -> dict[str, Any]:
+        """What has been made of the scene: its system with the gravity, and the arguments of each question."""
+        key = id(self)
+        if key not in _MADE:
+            _MADE[key] = weakref.ref(self, lambda _, made=_MADE: made.pop(key, None)), {}  # type: ignore[misc]
+        return _MADE[key][1]
+
+    def _built(self) -> tuple[System, float]:
+        """The system and the gravity, made once. All problems are raised as one error."""
+        made = self._made()
+        if "system" not in made:
+            made["system"] = system_of(self, "scene")
+        built: tuple[System, float] = made["system"]
+        return built
+
     def _problems(self, source: str, known: list[Problem]) -> list[Problem]:
-        """All problems of the scene, with those already known."""
-        numbers, system = Numbers(source), None
+        """All problems of the scene, with those already known; if there are none, what is made on the way is kept."""
+        numbers, made = Numbers(source), dict[str, Any](system=(None, 0.0))
         given = [name for name in SYSTEMS if getattr(self, name) is not UNSET]
         if given or all(re.split(r"[.\[]", problem.key)[0] in ("", *BESIDE) for problem in known):
             try:
-                system = self._system(source)
+                made["system"] = system_of(self, source)
             except SceneError as error:
                 numbers.problems[:] = error.problems
         for question in self.asks:
-            arguments(question, getattr(self.ask, question), system, numbers.of("ask"))
+            made[question] = arguments(question, getattr(self.ask, question), made["system"][0], numbers)
+        if not known and not numbers.problems:
+            self._made().update(made)
+            return []
         return parse.without_consequences([*known, *numbers.problems])
-
-    def _system(self, source: str) -> System | None:
-        """The system. All its problems are raised as one error; None if all problems are known already."""
-        numbers = Numbers(source)
-        given = [name for name in SYSTEMS if getattr(self, name) is not UNSET]
-        if len(given) != 1:
-            tables = "[[links]], [uniform_chain], [tapered_chain] or [cord]"
-            raise SceneError(source, "", f"give one of {tables}, got {' and '.join(given) or 'none of them'}")
-        numbers.gravity = numbers.value("gravity", self.gravity, "gravity", "positive")
-        numbers.by_mass = is_by_mass(self)
-        if self.links == []:
-            raise SceneError(source, "links", "is an empty list: give at least one link")
-        made: Chain | CordSystem | None = None
-        try:
-            if links := self._links():
-                made = chain_of_links(links, numbers)
-            else:
-                made = whole(getattr(self, given[0]), numbers.of(given[0]))
-        except SceneError as error:
-            numbers.problems[:] = error.problems
-        if self.is_rigged and (self.held is not UNSET or self.cord is not UNSET):
-            name = "cord" if self.held is UNSET else "held"
-            numbers.refuse(name, "does not go with a support, standing links, flywheels or a fluid")
-        elif self.is_rigged:
-            assert not isinstance(made, CordSystem)
-            return rig_of(made, self._bodies(), self.support, self.fluid, numbers)
-        held = None if isinstance(self.held, UnsetType) else _held(self.held, made, numbers.of("held"))
-        numbers.done()
-        return held or made
-
-    def _links(self) -> Links:
-        """The tables of the links, lowest first, with their numbers in the file."""
-        links = [] if isinstance(self.links, UnsetType) else list(enumerate(self.links))
-        return links[::-1] if self.order == "support first" else links
-
-    def _bodies(self) -> Links:
-        """The tables that are links of the system; a clamped one is part of the link above."""
-        return [(index, link) for index, link in self._links() if not link.clamped]
-
-    @property
-    def is_rigged(self) -> bool:
-        """Whether the scene has more than a chain that hangs from a firm point on the axis."""
-        return is_rigged([] if isinstance(self.links, UnsetType) else self.links, self.support)
-
-    @property
-    def is_held(self) -> bool:
-        """Whether the lower end is also held."""
-        return self.held is not UNSET
-
-
-def is_by_mass(scene: Scene) -> bool:
-    """Whether masses stay masses: the scene has no weight, or no gravity."""
-    return _is_by_mass(scene) or (isinstance(scene.held, Held) and scene.held.weightless)
-
-
-def _is_by_mass(table: Any) -> bool:
-    """Whether a table and the tables inside it have no weight."""
-    if isinstance(table, list):
-        return all(map(_is_by_mass, table))
-    if not isinstance(table, Table):
-        return True
-    values = {field.name: getattr(table, field.name) for field in fields_of(type(table)) if field.name != "ask"}
-    weights = [name for name, value in values.items() if name.endswith("weight") and value is not UNSET]
-    return not weights and all(map(_is_by_mass, values.values()))
-
-
-def _held(table: Held, system: Chain | CordSystem | None, numbers: Numbers) -> HeldSystem | None:
-    """The chain or cord held at both ends."""
-    if (table.span is UNSET) == (table.tension is UNSET):
-        numbers.refuse("", "give either span or tension")
-        return None
-    name = "span" if table.tension is UNSET else "tension"
-    value = numbers.value(name, getattr(table, name), name, "positive")
-    given: dict[str, Any] = {name: value, "weightless": table.weightless}
-    for end in ("lower", "upper"):
-        held_by = getattr(table, end)
-        if held_by is not UNSET:
-            given[end] = EndSupport(**support_numbers(held_by, numbers.of(end), "any"))
-    numbers.done()
-    if system is None or math.isnan(value):
-        return None
-    try:
-        return HeldSystem(system, **given)
-    except ValueError as error:
-        reason = without_place(error)
-        ends = [end for end in ("lower", "upper") if reason.startswith(end)]
-        key = ends[0] if ends else name
-        raise SceneError(numbers.source, f"held.{key}", reason.removeprefix(f"{key} ")) from None
 
 
 def _named(problem: Problem, scene: Scene) -> Problem:
@@ -441,8 +334,13 @@ def load_scene(path: str | os.PathLike[str]) -> Scene:
     >>> rc.load_scene(path).system().size
     120
     """
+    return read(path, {})
+
+
+def read(path: str | os.PathLike[str], changed: dict[str, Any]) -> Scene:
+    """The scene of a file, with other values of some of its keys."""
     with parse.opened(path) as (raw, problems):
-        return Scene._read(raw, os.fspath(path), problems, in_doubt=True)
+        return Scene._read(raw | changed if isinstance(raw, dict) else raw, os.fspath(path), problems)
 
 
 def json_schema(kind: type[Table] = Scene, title: str = "revchain scene") -> dict[str, Any]:

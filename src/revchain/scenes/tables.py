@@ -1,10 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The tables of a scene file that describe the system: their keys, the types, and the texts that editors show."""
 
-from __future__ import annotations
-
 from functools import cache, partial
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, get_args
 
 from msgspec import UNSET, Meta, Struct, UnsetType
 from msgspec.structs import fields
@@ -32,7 +30,24 @@ MaybeNotNegative = NotNegative | UnsetType
 Count = Annotated[int, Meta(ge=1, le=MOST_LINKS)]
 
 
-fields_of = cache(fields)  # `fields` evaluates the annotations in each call, which takes a millisecond
+fields_of = cache(fields)  # `fields` takes a millisecond in each call
+
+
+_SIGNS = {
+    AnySign: "any",
+    MaybeAnySign: "any",
+    Positive: "positive",
+    MaybePositive: "positive",
+    NotNegative: "not negative",
+    MaybeNotNegative: "not negative",
+}
+
+
+@cache
+def number_fields(kind: type[Struct]) -> list[tuple[str, str, bool]]:
+    """Name of each key that is a number or text with a unit, its sign in words, and whether it must be given."""
+    types = [(field, get_args(field.type)[0]) for field in fields_of(kind)]
+    return [(field.name, _SIGNS[of], field.required) for field, of in types if of in _SIGNS]
 
 
 class Table(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True, repr_omit_defaults=True, kw_only=True):

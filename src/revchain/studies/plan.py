@@ -1,52 +1,55 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The plan of a study: its axes, the results of each point, and the computation of a stretch of points."""
+"""The plan of a study: its axes, the results of each point, and their computation; a worker needs nothing else."""
 
 from __future__ import annotations
 
-import hashlib
-import json
-import time
-from dataclasses import dataclass, field
-from math import prod
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from msgspec import UNSET, UnsetType, convert
 from numpy.typing import NDArray
 
-from .. import _core
-from ..questions.batch import conical_heights
-from ..scenes import parse
+from ..scenes.ask import DEFAULT_MODES, AskModes, Spread
+from ..scenes.chain import Numbers
 from ..scenes.scene import Scene
-from ..systems.numbers import Floats
-from .axes import Axis, Reader, Values, shape_of, with_value
-from .points import (
-    NOT_MET,
-    REFUSED,
-    SUCCESS,
-    Arrays,
-    Block,
-    Columns,
-    one_by_one,
-    refused_by_chains,
-    solve_compiled,
-)
+from .axes import Axis, with_value
+from .batch import Links
 
-FORMAT = 3  # version of the chunks on disk
-_LARGEST, _SMALLEST = 32768, 1024  # chains of a batch: few enough that their numbers stay in the cache
-_WORK = 2**20  # links times modes of a batch: enough that Python takes a small part of the time
-_FEW = 3  # so few points are as fast by the methods of their scenes
-_MOST_PATTERNS = 100  # largest number of stored scenes
+SUCCESS, NOT_MET, REFUSED = 1, 2, 3  # the status of a point; 0 if it has not been computed
+Rows = dict[str, NDArray[Any]]  # arrays by name, with a row for each point
+STATUS = ("success", "tolerance_not_met", "refused")
+_SPEED = ("angular_speed", "conical_height", "error_bound", "speed_error_bound")
+_SHAPE = ("lowest_inclination", "top_inclination", "free_end_offset", "top_tension")
+_RESPONSE = ("response_angular_speed", "response_free_end_offset", "response_largest_offset", "support_force")
+_UNITS = {"speed": "rad/s", "height": "m", "inclination": "rad", "offset": "m", "tension": "N", "force": "N"}
 
 
 @dataclass(frozen=True)
-class Stretch:
-    """The points start <= k < stop: their results, a status for each, and the time in seconds."""
+class Block:
+    """A result of each point: one number, or one for each mode, shape or speed."""
 
-    start: int
-    stop: int
-    arrays: Arrays
-    status: NDArray[np.uint8]
-    seconds: float = 0.0
+    name: str
+    kind: str  # "f8", "i8" or "?"; NaN, 0 or False stands for a missing result
+    along: str = ""  # "mode", "shape", "speed", or empty for one number
+    labels: tuple[int, ...] = ()  # numbers of the modes, shapes or speeds
+
+    @property
+    def each(self) -> tuple[int, ...]:
+        """The shape of the results of one point."""
+        return (len(self.labels),) if self.along else ()
+
+    @property
+    def columns(self) -> list[str]:
+        """Names of its columns in a table."""
+        return [f"{self.name}_{label}" for label in self.labels] if self.along else [self.name]
+
+    @property
+    def unit(self) -> str:
+        """The SI unit; empty for a number without one."""
+        return _UNITS.get(self.name.rpartition("_")[2], "")
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,223 +58,183 @@ class Plan:
 
     base: dict[str, Any]  # the scene as plain data
     axes: tuple[Axis, ...]
-    samples: int  # random numbers at each point of the grids
+    shape: tuple[int, ...]  # number of values of each grid, then of samples; the last one varies fastest
     seed: int
     find: tuple[str, ...]  # "modes", "shapes", "response"
     blocks: tuple[Block, ...]  # the results
-    batched: bool  # whether heights come from `revchain.conical_heights`
-    derived: bool  # whether speeds follow from the heights and are not stored
-    _kept: dict[str, Any] = field(default_factory=dict, repr=False)
-    _patterns: dict[tuple[Any, ...], Scene] = field(default_factory=dict, repr=False)
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        given = (self.base, self.axes, self.samples, self.seed, self.find, self.blocks, self.batched, self.derived)
-        return Plan, given
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """Number of values of each grid, then samples."""
-        return shape_of(self.axes, self.samples)
+    links: Links | None  # how links follow the varied numbers, if heights come from `revchain.conical_heights`
 
     @property
     def points(self) -> int:
         """Number of points."""
-        return prod(self.shape)
+        return math.prod(self.shape)
 
-    def values(self, start: int, stop: int) -> list[Values]:
-        """The numbers of each axis at a stretch of points."""
-        return self.reader().at(start, stop)
+    def zeros(self, points: int) -> Rows:
+        """Arrays for the random numbers, the results and the status of this number of points."""
+        random = {axis.name: np.zeros(points) for axis in self.axes if axis.values is None}
+        results = {block.name: np.zeros((points, *block.each), block.kind) for block in self.blocks}
+        return {**random, **results, "status": np.zeros(points, np.int8)}
 
-    def reader(self) -> Reader:
-        """A reader of the numbers of successive stretches, for one thread."""
-        return Reader(self.axes, self.samples, self.seed)
+    def values(self, start: int, stop: int) -> list[NDArray[Any]]:
+        """The numbers of each axis at the points start <= k < stop."""
+        found, after = [], self.points
+        for axis in self.axes:
+            if axis.values is None:
+                found.append(axis.drawn(self.seed, start, stop))
+                continue
+            size = axis.values.size
+            after //= size  # points with the same number, one after the other
+            first, last = start // after, -(-stop // after)
+            runs = np.tile(axis.values, -(-(last - first) // size) + 1)[first % size :][: last - first]
+            found.append(np.repeat(runs, after)[start - first * after :][: stop - start])
+        return found
 
-    def scene_data(self, values: list[Any]) -> dict[str, Any]:
-        """The scene with these numbers, as plain data."""
+    def scene(self, values: Sequence[Any]) -> dict[str, Any]:
+        """The data of the scene with these numbers."""
         data = self.base
         for axis, value in zip(self.axes, values, strict=True):
             data = with_value(data, axis.path, value)
         return data
 
-    def fingerprint(self) -> str:
-        """A hash of all data on which the results depend."""
-        from .. import __version__
-
-        axes = [
-            [axis.key, None if axis.values is None else hashlib.sha256(repr(axis.values.tolist()).encode()).hexdigest()]
-            + [axis.law, *axis.law_numbers]
-            for axis in self.axes
-        ]
-        base = {key: value for key, value in self.base.items() if key not in ("title", "description")}
-        blocks = [[block.name, block.kind, block.along, block.labels] for block in self.blocks]
-        random = [self.samples, self.seed, np.__version__] if any(axis.law for axis in self.axes) else []
-        everything = [FORMAT, __version__, base, axes, random, self.find, blocks, self.batched]
-        return hashlib.sha256(json.dumps(everything, sort_keys=True).encode()).hexdigest()
-
-    @property
-    def stored(self) -> tuple[Block, ...]:
-        """The blocks that are computed and stored."""
-        return tuple(block for block in self.blocks if not (self.derived and block.name == "angular_speed"))
-
-    @property
-    def numbers(self) -> int:
-        """Number of stored numbers of each point."""
-        return sum(prod(block.each) for block in self.stored)
-
-    @property
-    def batch(self) -> int:
-        """Number of chains that go to `revchain.conical_heights` together."""
-        if "batch" not in self._kept:
-            chain: Any = self._scene.system()
-            most = _WORK // (chain.size * self.stored[0].labels[-1])
-            self._kept["batch"] = min(max(1 << max(most.bit_length() - 1, 0), _SMALLEST), _LARGEST)
-        return int(self._kept["batch"])
-
-    def speeds(self, heights: Floats, values: list[Values]) -> Floats:
-        """Whirl speeds at points with these heights and these numbers of the axes."""
-        varied = {axis.path: k for k, axis in enumerate(self.axes)}
-        where = varied.get(("gravity",))
-        gravity = np.asarray(self._scene.gravity_value() if where is None else values[where], float)
-        with np.errstate(invalid="ignore"):  # the height of a refused point is NaN
-            speeds: Floats = np.sqrt(heights)
-            np.divide(np.sqrt(gravity)[..., np.newaxis], speeds, out=speeds)
-        return speeds
-
-    def found(
-        self, start: int, stop: int, progress: _core.Progress | None = None, arrays: Arrays | None = None
-    ) -> Stretch:
-        """The points of a stretch, put into `arrays` if given; the numbers do not depend on the stretch."""
-        began = time.perf_counter()
-        progress = _core.Progress() if progress is None else progress
-        status = np.full(stop - start, SUCCESS, np.uint8)
-        if self.batched:
-            heights = self.stored[0].memory(stop - start) if arrays is None else arrays["conical_height"]
-            columns, reader = Columns(self._scene, min(self.batch, stop - start)), self.reader()
-            for first in range(start, stop, self.batch):
-                last = min(first + self.batch, stop)
-                rows = slice(first - start, last - start)
-                self._heights(rows, reader.at(first, last), columns, heights, status, progress)
-            return Stretch(start, stop, {"conical_height": heights}, status, time.perf_counter() - began)
-        if arrays is None:
-            arrays = {block.name: block.memory(stop - start) for block in self.stored}
-        for block in self.stored:
-            arrays[block.name][...] = block.nothing
+    def solved(self, start: int, stop: int, rows: Rows | None = None) -> Rows:
+        """The points start <= k < stop, put into `rows` if given; they do not depend on the other points."""
+        rows = self.zeros(stop - start) if rows is None else rows
         values = self.values(start, stop)
-        for rows in self._alike(values, stop - start):
-            self._solve(rows, [column[rows] for column in values], arrays, status, progress)
-        return Stretch(start, stop, arrays, status, time.perf_counter() - began)
+        if self.links is not None:
+            self.links.solve(values, self.blocks[0].labels[0], rows)
+        for k in np.flatnonzero(rows["status"] == 0).tolist():
+            self._solve(rows, k, [column[k].item() for column in values])
+        self.derive(rows, values)
+        return rows
 
-    def refusal(self, point: int) -> str:
-        """The reason why the scene of a point is refused; empty if it is not."""
-        values = [column.tolist()[0] for column in self.values(point, point + 1)]
-        try:
-            one_by_one(self._scene_of(values), self.find)
-        except (ValueError, OverflowError) as error:
-            return str(error).removeprefix("scene: ")
-        return ""
-
-    def _scene_of(self, values: list[Any]) -> Scene:
-        """The scene of a point, which its methods check later."""
-        return parse.convert(self.scene_data(values), Scene, "scene")
-
-    def _alike(self, values: list[Values], count: int) -> list[Any]:
-        """Groups of rows with equal words and whole numbers, so that the points of a group differ only in numbers."""
-        words = [column for axis, column in zip(self.axes, values, strict=True) if not axis.is_number]
-        if not words:
-            return [slice(None)]
-        codes = np.stack([np.unique(column, return_inverse=True)[1] for column in words])
-        _, groups = np.unique(codes, axis=1, return_inverse=True)
-        return [np.flatnonzero(groups == group) for group in range(groups.max() + 1)]
-
-    def _solve(self, rows: Any, values: list[Values], arrays: Arrays, status: NDArray[np.uint8], progress: Any) -> None:
-        """Solve points that differ only in numbers, one by one."""
-        count = len(values[0])
-        if (solved := self._compiled(values, count, progress)) is not None:
-            for name, found in solved[0].items():
-                arrays[name][rows] = found
-            status[rows] = solved[1]
-            return
-        places = range(count) if isinstance(rows, slice) else rows.tolist()
-        for row, *each in zip(places, *(column.tolist() for column in values), strict=True):
-            if progress.cancelled:
-                raise _core.Cancelled("revchain: cancelled")
-            self._one(row, each, arrays, status)
-
-    def _compiled(self, values: list[Values], count: int, progress: Any) -> tuple[Arrays, NDArray[np.uint8]] | None:
-        """The results of `solve_compiled` for these points; None if it does not apply, or if they are too few."""
-        if count < _FEW:
-            return None
-        points = {axis.path: column for axis, column in zip(self.axes, values, strict=True) if axis.is_number}
-        columns = zip(self.axes, values, strict=True)
-        words = tuple(column[:1].tolist()[0] for axis, column in columns if not axis.is_number)
-        try:
-            pattern = self._pattern(words)
-            return solve_compiled(pattern, self.find, self.stored, points, count, progress)
-        except (ValueError, OverflowError):
-            return None
-
-    def _pattern(self, words: tuple[Any, ...]) -> Scene:
-        """A scene with these words and whole numbers; its other numbers have no effect."""
-        pattern = self._patterns.get(words)
-        if pattern is None:
-            given = iter(words)
-            sample = [axis.examples()[0] if axis.is_number else next(given) for axis in self.axes]
-            if len(self._patterns) >= _MOST_PATTERNS:
-                self._patterns.clear()
-            pattern = self._patterns[words] = Scene.from_dict(self.scene_data(sample))
-        return pattern
-
-    def _one(self, row: int, values: list[Any], arrays: Arrays, status: NDArray[np.uint8]) -> None:
-        """Solve a point by the methods of its scene."""
-        try:
-            found, good = one_by_one(self._scene_of(values), self.find)
-        except (ValueError, OverflowError):
-            status[row] = REFUSED
-            return
-        status[row] = SUCCESS if good else NOT_MET
-        for block in self.stored:
-            numbers = np.atleast_1d(found[block.name])
-            if block.along:
-                count = min(len(block.labels), len(numbers))
-                arrays[block.name][row, :count] = numbers[:count]
-            else:
-                arrays[block.name][row] = numbers[0]
-
-    def _heights(
-        self,
-        rows: Any,
-        values: list[Values],
-        columns: Columns,
-        heights: Floats,
-        status: NDArray[np.uint8],
-        progress: Any,
-    ) -> None:
-        """Heights of plain chains. The wrong chains of a refused batch are left out; a single chain is solved."""
-        (block,) = self.stored
-        links = columns.bodies({axis.path: column for axis, column in zip(self.axes, values, strict=True)})
-        count = len(values[0])
-        wrong = np.broadcast_to(columns.wrong, count)
-        if not wrong.any():
-            try:
-                found = conical_heights(**links, count=block.labels[-1])  # type: ignore[arg-type]
-                heights[rows] = found[..., block.labels[0] - 1 :]
-                return
-            except ValueError:
-                wrong = refused_by_chains(links, count)
-        places = np.arange(rows.start, rows.stop) if isinstance(rows, slice) else rows
-        heights[places[wrong]], status[places[wrong]] = np.nan, REFUSED
-        right = np.flatnonzero(~wrong)
-        if right.size == count == 1:  # no error was seen in it
-            heights[places] = np.nan
-            self._solve(places, values, {block.name: heights}, status, progress)
-        else:
-            for part in np.array_split(right, 2) if right.size == count else [right]:
-                if part.size:
-                    self._heights(places[part], [column[part] for column in values], columns, heights, status, progress)
+    def derive(self, rows: Rows, values: list[NDArray[Any]]) -> None:
+        """Put the random numbers, and in batches the speeds, into `rows`; they follow from the stored results."""
+        gravity: Any = None if self.links is None else self.links.gravity
+        for axis, column in zip(self.axes, values, strict=True):
+            if axis.values is None:
+                rows[axis.name][:] = column
+            if self.links is not None and axis.path == ("gravity",):
+                gravity = column[:, np.newaxis]
+        if gravity is not None:
+            with np.errstate(invalid="ignore"):  # gravity of refused points
+                np.divide(np.sqrt(gravity), np.sqrt(rows["conical_height"]), out=rows["angular_speed"])
 
     @property
-    def _scene(self) -> Scene:
-        """The base scene; a dict is shared by threads, at worst two of them make it."""
-        if "scene" not in self._kept:
-            self._kept["scene"] = Scene.from_dict(self.base)
-        return self._kept["scene"]  # type: ignore[no-any-return]
+    def stored(self) -> list[str]:
+        """Names of the arrays that `derive` does not fill."""
+        derived = () if self.links is None else ("angular_speed",)
+        return [*(block.name for block in self.blocks if block.name not in derived), "status"]
+
+    def _solve(self, rows: Rows, k: int, values: list[Any]) -> None:
+        """Put the answers of the scene of one point into row k."""
+        found: dict[str, Any] = {}
+        try:
+            found, proved = answers(convert(self.scene(values), Scene), self.find)  # the questions check the scene
+            rows["status"][k] = SUCCESS if proved else NOT_MET
+        except (ValueError, OverflowError):
+            rows["status"][k] = REFUSED
+        for block in self.blocks:
+            row = rows[block.name][k : k + 1].reshape(-1)
+            row[:] = math.nan if block.kind == "f8" else 0
+            numbers = np.ravel(found.get(block.name, []))[: row.size]
+            row[: numbers.size] = numbers
+
+
+def answers(scene: Scene, find: Sequence[str]) -> tuple[dict[str, Any], bool]:
+    """The results of one scene, by the names of the blocks, and whether all of them are proved."""
+    found: dict[str, Any] = {}
+    proved = True
+    if "modes" in find:
+        modes: Any = scene.modes()
+        if scene.is_rigged:
+            for turn, which in (("forward", modes.direction > 0), ("backward", modes.direction < 0)):
+                found |= {f"{turn}_{name}": np.abs(getattr(modes, name)[which]) for name in _SPEED}
+            found |= {"other_modes": modes.other_available, "modes_complete": modes.complete}
+        else:
+            found |= {name: getattr(modes, name) for name in _SPEED[:3]}
+        proved = modes.status == "success"
+    if "shapes" in find:
+        shapes: Any = scene.steady_shapes()
+        found |= {"shapes": len(shapes), "shapes_complete": shapes.complete}
+        found["half_waves"] = [s.half_waves for s in shapes]
+        for name, field in zip(_SHAPE, ("inclination", "inclination", "offset", "tension"), strict=True):
+            found[name] = [getattr(s, field)[-1 if name.startswith("top") else 0] for s in shapes]
+        found[f"shape_{_accuracy(scene)}"] = [getattr(s, _accuracy(scene)) for s in shapes]
+        proved = proved and bool(shapes.complete)
+    if "response" in find:
+        moved = scene.response()
+        offset = np.atleast_2d(moved.offset)
+        numbers = [moved.angular_speed, offset[:, 0], np.abs(offset).max(axis=1), moved.support_force]
+        found |= dict(zip(_RESPONSE, numbers, strict=True)) | {"response_error_bound": moved.error_bound}
+        proved = proved and bool(np.isfinite(moved.error_bound).all())
+    return found, proved
+
+
+def _accuracy(scene: Scene) -> str:
+    """The field of a shape that has the size of its error."""
+    return "error_bound" if scene.cord is UNSET else "error_estimate"
+
+
+def asked_of(scene: Scene, wanted: Sequence[str] | UnsetType, numbers: Numbers) -> tuple[str, ...]:
+    """The questions in the order of the columns: `wanted`, or those of the scene. Errors are noted."""
+    asked: list[str] = [name for name in ("modes", "shapes", "response") if name in scene.asks] or ["modes"]
+    if isinstance(wanted, UnsetType):
+        for name in set(scene.asks) - {"modes", "shapes", "response"}:
+            numbers.refuse(f"scene.ask.{name}", 'is not for studies; say what is: find = ["modes"]')
+    else:
+        for k, name in enumerate(wanted):
+            if name not in ("modes", *asked):
+                numbers.refuse(f"find[{k}]", f"the scene does not say at which speed: [ask.{name}]")
+        asked = [name for name in ("modes", "shapes", "response") if name in wanted]
+    for name in ("conical_height", "angular_speed"):
+        if "modes" in asked and getattr(scene.ask.modes, name, UNSET) is not UNSET:
+            numbers.refuse(f"scene.ask.modes.{name}", "gives each point another number of modes; give count and first")
+    if "response" in asked and (scene.is_held or scene.cord is not UNSET):
+        numbers.refuse("scene.ask.response", f"does not go with {'held' if scene.is_held else 'cord'}")
+    if "modes" in asked and not isinstance(scene.held, UnsetType) and scene.held.span is not UNSET:
+        numbers.refuse("scene.held.span", 'makes the chain bent, without modes: write find = ["shapes"]')
+    return tuple(asked)
+
+
+def blocks_of(scene: Scene, largest: Scene, find: tuple[str, ...], max_shapes: int, bounds: bool) -> tuple[Block, ...]:
+    """The results of each point; `largest` is the scene of the point with the most modes."""
+    blocks: list[Block] = []
+    system = scene.system()
+    if "modes" in find:
+        labels = _modes_of(scene, largest)
+        names = list(_SPEED[: (4 if scene.is_rigged else 3) if bounds else 2])
+        turns = ["forward_", "backward_"] if system.has_momentum else ["forward_"]
+        for turn in turns if scene.is_rigged else [""]:
+            blocks += [Block(turn + name, "f8", "mode", labels) for name in names]
+        if scene.is_rigged:
+            blocks += [Block("other_modes", "i8"), Block("modes_complete", "?")]
+    if "shapes" in find:
+        labels = tuple(range(1, max_shapes + 1))
+        blocks += [Block("shapes", "i8"), Block("shapes_complete", "?"), Block("half_waves", "i8", "shape", labels)]
+        blocks += [Block(name, "f8", "shape", labels) for name in (*_SHAPE, *[f"shape_{_accuracy(scene)}"] * bounds)]
+    if "response" in find:
+        count = _speeds_of(scene.ask.response)
+        names = [*_RESPONSE, *["response_error_bound"] * bounds]
+        labels = tuple(range(1, count + 1))
+        blocks += [Block(name, "f8", "" if count == 1 else "speed", labels) for name in names]
+    return tuple(blocks)
+
+
+def _modes_of(scene: Scene, largest: Scene) -> tuple[int, ...]:
+    """Numbers of the modes with columns: those asked for, at most those of the point with the most modes."""
+    ask, system = scene.ask.modes, largest.system()
+    ask = AskModes() if isinstance(ask, UnsetType) else ask
+    first = 1 if isinstance(ask.first, UnsetType) else ask.first
+    if system._kind == "rig":
+        there = 2 * (system.size + 1)  # in each direction
+    else:
+        there = system.size if system._kind == "chain" else system.mode_count or DEFAULT_MODES
+    there = max(there - first + 1, 1)
+    count = ask.count if isinstance(ask.count, int) else there if ask.count == "all" else min(DEFAULT_MODES, there)
+    return tuple(range(first, first + count))
+
+
+def _speeds_of(ask: Any) -> int:
+    """Number of speeds of [ask.response]."""
+    given = ask.conical_height if ask.angular_speed is UNSET else ask.angular_speed
+    return given.steps if isinstance(given, Spread) else len(given) if isinstance(given, list) else 1

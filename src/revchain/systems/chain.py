@@ -453,7 +453,7 @@ class Chain(System):
         """Description of equal links, from the index `first` to before `end`."""
         core = self._compiled
         numbers = (core.weight, core.length, core.centroid, core.radius_of_gyration)
-        heavy, long, centroid, radius = (float(x[first] if x.ndim else x) for x in numbers)
+        heavy, long, centroid, radius = [float(x[first] if x.ndim else x) for x in numbers]
         if heavy == 0:
             what = f"thread, {long:.6g} m"
         elif centroid == long and radius == 0:
@@ -501,8 +501,23 @@ class Chain(System):
         heavy = f"{'mass' if self.by_mass else 'weight'} {self._compiled.total_weight:.6g}"
         return f"Chain of {links}, length {self.total_length:.6g}, {heavy}"
 
+    _kind = "chain"
+
+    def _modes_again(self, modes: Any) -> _core.Modes:
+        way = modes.method if modes.method in _core.METHODS else "auto"
+        certified = modes.certificate is not None
+        first = int(modes.number[0])
+        return _core.modes(
+            self._compiled, first, len(modes), None, None, modes.rtol, certified, modes.precision, way
+        )
+
     def _under(self, gravity: float) -> _core.Chain:
         return self._compiled
+
+    @property
+    def _total(self) -> float:
+        """Mass or weight of the whole chain, as given."""
+        return self._compiled.total_weight
 
     def _state(self) -> tuple[Any, ...]:
         """The numbers and arrays that make up the chain."""

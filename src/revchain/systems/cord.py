@@ -195,8 +195,28 @@ class Cord(System):
         tip = f", tip {self._compiled.tip_weight:.6g}" if self._compiled.tip_weight else ""
         return f"Cord of length {self.length:.6g}, {heavy}{', ' + spread if self._function != 0.0 else ''}{tip}"
 
+    _kind = "cord"
+
+    @property
+    def size(self) -> int:
+        """0: a cord has no links."""
+        return 0
+
+    @property
+    def mode_count(self) -> None:
+        """None: a cord has infinitely many modes."""
+        return None
+
+    def _modes_again(self, modes: Any) -> _core.CordModes:
+        return _core.cord_modes(self._compiled, int(modes.number[0]), len(modes), None, None, modes.rtol)
+
     def _under(self, gravity: float) -> _core.Cord:
         return self._compiled
+
+    @property
+    def _total(self) -> float:
+        """Mass or weight of cord and tip, as given."""
+        return self._compiled.weight + self._compiled.tip_weight
 
     def _state(self) -> tuple[Any, ...]:
         kept = self._function if isinstance(self._function, float) else self._function.__getstate__()

@@ -80,7 +80,7 @@ def read(place: str, system: Any, path: Any, gravity: float) -> Datum:
         if isinstance(name, str) and name.replace(other, heavy) in known:
             hint = str(path).replace(other, heavy)
             raise ValueError(f'{place}: the {_kind(system)} was given by {heavy}: vary "{hint}", got {shown(path)}')
-        if isinstance(system, Chain) and name == heavy:
+        if system._kind == "chain" and name == heavy:
             raise ValueError(
                 f'{place}: vary must not be "{heavy}" of a whole chain, whose speeds depend on ratios alone; vary '
                 f'"links[k].{heavy}" of a link, got {shown(path)}'
@@ -95,14 +95,7 @@ def read(place: str, system: Any, path: Any, gravity: float) -> Datum:
     if link is not None and link >= system.size:
         what = name.partition("[")[0]
         raise ValueError(f"{place}: vary names {what}[{link}], and the highest is {what}[{system.size - 1}]")
-    if isinstance(system, Chain):
-        datum = _of_chain(place, system, path, link)
-    elif isinstance(system, Rig):
-        datum = _of_rig(place, system, path, link, gravity)
-    elif isinstance(system, Held):
-        datum = _of_held(place, system, path, link, gravity)
-    else:
-        datum = _of_cord(place, system, path)
+    datum = _READ[system._kind.partition(" ")[0]](place, system, path, link, gravity)
     return replace(datum, link=link or 0)
 
 
@@ -129,19 +122,19 @@ def _holds(one: str, other: str) -> bool:
 
 
 def _kind(system: Any) -> str:
-    return type(system).__name__ if not isinstance(system, Chain) else "chain"
+    return "chain" if system._kind == "chain" else type(system).__name__
 
 
 def _paths(system: Any, heavy: str) -> list[str]:
     """The paths of a system, with k for the index of a link."""
-    if isinstance(system, Cord):
+    if system._kind == "cord":
         return ["length", heavy, f"tip_{heavy}"]
     own = [f"links[k].{name}" for name in (heavy, *_LENGTHS)]
-    if isinstance(system, Chain):
+    if system._kind == "chain":
         return ["length", *own]
-    if isinstance(system, Held):
+    if system._is_held:
         ends = "tension" if system.span is None else "span"
-        return ["length", heavy, *(own if isinstance(system.system, Chain) else ()), ends]
+        return ["length", heavy, *(() if system._is_cord else own), ends]
     paths = ["length", heavy, *own, "support.stiffness", f"support.{heavy}", "flywheels[k].momentum"]
     wheels = () if system.flywheels is None else system.flywheels._given
     fluid = () if system.displaced is None else system.displaced._given
@@ -149,7 +142,7 @@ def _paths(system: Any, heavy: str) -> list[str]:
     return paths + [f"displaced[k].{name}" for name in fluid]
 
 
-def _of_chain(place: str, chain: Chain, path: str, link: int | None) -> Datum:
+def _of_chain(place: str, chain: Chain, path: str, link: int | None, gravity: float) -> Datum:
     whole = compiled(place, chain).total_weight
     if path in ("mass", "weight"):
         column = np.broadcast_to(chain._compiled.weight, chain.size)
@@ -214,7 +207,7 @@ def _of_rig(place: str, rig: Rig, path: str, link: int | None, gravity: float) -
         return Rig._from_state((*fittings.values(), *rest))
 
     if where == "" or where.startswith("links"):
-        own = _of_chain(place, chain, path, link)
+        own = _of_chain(place, chain, path, link, gravity)
         follows = fluid is not None and name in _LENGTHS and path != f"{where}.length"  # what is displaced may
         return replace(own, change=lambda x: made(chain=own.change(x)), rate=None if follows else own.rate)
     whole, long = chain._compiled.total_weight, chain.total_length
@@ -266,7 +259,7 @@ def _of_held(place: str, held: Held, path: str, link: int | None, gravity: float
         assert held.tension is not None
         least = 0.0 if held.weightless else held._force(gravity) * held._total
         return Datum(path, held.tension, lambda x: made(held.system, x), held.tension, floor=least, one_way=True)
-    own = _of_cord(place, held.system, path) if isinstance(held.system, Cord) else _of_chain(place, held.system, path, link)
+    own = _READ[held.system._kind](place, held.system, path, link, gravity)
     # More mass anywhere lowers the tension below it and adds inertia: all speeds fall.
     heavy = path.rpartition(".")[2] in ("mass", "weight")
     floor = held.span if path == "length" and held.span is not None else own.floor
@@ -275,7 +268,7 @@ def _of_held(place: str, held: Held, path: str, link: int | None, gravity: float
     )
 
 
-def _of_cord(place: str, cord: Cord, path: str) -> Datum:
+def _of_cord(place: str, cord: Cord, path: str, link: int | None, gravity: float) -> Datum:
     length, heavy, tip, kept, by_mass = cord._state()
     if path == "length":
         return Datum(path, length, lambda x: _longer(cord, x / length), length)
@@ -294,3 +287,6 @@ def _longer(cord: Cord, factor: float) -> Cord:
     return Cord._from_state((factor * length, weight, tip, kept, by_mass))
 
 
+_READ: dict[str, Callable[[str, Any, str, int | None, float], Datum]] = {
+    "chain": _of_chain, "rig": _of_rig, "cord": _of_cord, "held": _of_held
+}  # fmt: skip

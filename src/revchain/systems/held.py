@@ -172,9 +172,31 @@ class Held(System):
     def _force(self, gravity: float) -> float:
         return 1.0 if self.weightless else self.system._force(gravity)
 
+    def _force_in_shape(self, gravity: float, conical_height: float, angular_speed: float) -> float:
+        """The same; the forces of compiled shapes are multiplied by the conical height."""
+        return angular_speed**2 if self.weightless else self._force(gravity) / conical_height
+
     def _pull(self, gravity: float) -> tuple[float, float] | None:
         """Tension, and its unit over that of the compiled system's forces."""
         return None if self.tension is None else (self.tension, self._force(gravity))
+
+    @property
+    def _kind(self) -> str:  # type: ignore[override]
+        return f"held {self.system._kind}"
+
+    @property
+    def _base(self) -> Chain | Cord:
+        return self.system
+
+    @property
+    def _fixes_gravity(self) -> str | None:
+        return "a system held by a tension in newtons" if self.by_mass or self.weightless else None
+
+    def _modes_again(self, modes: Any) -> _core.Modes | _core.CordModes:
+        held, asked = self._under(modes.gravity), (int(modes.number[0]), len(modes), None, None, modes.rtol)
+        if isinstance(held, _core.Held):
+            return _core.held_modes(held, *asked, modes.certificate is not None, None, modes.gravity)
+        return _core.held_modes(held, *asked, None, modes.gravity)
 
     def _under(self, gravity: float) -> _core.Held | _core.HeldCord:
         if isinstance(self.system, Cord):

@@ -470,6 +470,42 @@ class Rig(System):
         """Whether a wheel has constant angular momentum, so that the two directions of rotation differ."""
         return self.flywheels is not None and bool(self._momentum(STANDARD_GRAVITY).any())
 
+    _kind = "rig"
+    _fixes_gravity = "a rig"
+
+    @property
+    def _base(self) -> Chain:
+        return self.chain
+
+    @property
+    def _stands(self) -> NDArray[np.bool_]:
+        return self.inverted
+
+    @property
+    def _support(self) -> Support:
+        return self.support
+
+    @property
+    def _fluid(self) -> str | None:
+        return self.fluid if self._floats else None
+
+    @property
+    def mode_count(self) -> None:
+        """None: how many modes a rig has is known only when they are found."""
+        return None
+
+    def _modes_again(self, modes: Any) -> _core.RigModes:
+        first, last = int(modes.number.min()), int(modes.number.max())
+        each = [modes.number[modes.direction == way] for way in (1, -1)]
+        kept = [int(n) for numbers in each for n in (numbers.min(initial=last + 1), numbers.size)]
+        rig, certified = self._under(modes.gravity), modes.certificate is not None
+        many = last - first + 1
+        only = (kept[0], kept[1], kept[2], kept[3])
+        return _core.rig_modes(rig, first, many, None, None, modes.rtol, certified, modes.gravity, kept=only)
+
+    def _momentum_of_wheels(self, gravity: float, inclination: Any) -> float:
+        return self._force(gravity) * float(np.sum(self._momentum(gravity) * np.cos(inclination)))
+
     def _under(self, gravity: float) -> _core.Rig:
         at = self._at  # of two threads each sees one pair
         if at[0] == gravity or not self._needs_gravity():

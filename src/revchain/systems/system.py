@@ -5,6 +5,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
+import numpy as np
+from numpy.typing import NDArray
+
 from .unchangeable import Unchangeable
 
 if TYPE_CHECKING:
@@ -16,12 +19,62 @@ class System(Unchangeable):
 
     __slots__ = ()
     by_mass: bool
+    _kind: str  # "chain", "rig", "cord", "held chain" or "held cord": by this questions find what is for the system
     _kinds: ClassVar[dict[str, type[System]]] = {}
 
     def __init_subclass__(cls, **given: Any) -> None:
         super().__init_subclass__(**given)
         if cls.__module__.startswith("revchain."):
             System._kinds[cls.__name__] = cls
+
+    @property
+    def _base(self) -> Any:
+        """The chain or cord in the system."""
+        return self
+
+    @property
+    def _is_held(self) -> bool:
+        """Whether both ends are held."""
+        return self._kind.startswith("held")
+
+    @property
+    def _is_cord(self) -> bool:
+        """Whether the system has no links."""
+        return self._kind.endswith("cord")
+
+    @property
+    def _stands(self) -> NDArray[np.bool_]:
+        """Whether each link is inverted; one False for a cord."""
+        return np.zeros(max(self._base.size, 1), bool)
+
+    @property
+    def _support(self) -> Any:
+        """The support if it can move, on a spring or in a circle, else None."""
+        return None
+
+    @property
+    def _fluid(self) -> str | None:
+        """The kind of fluid if something floats in it, else None."""
+        return None
+
+    @property
+    def has_momentum(self) -> bool:
+        """Whether a flywheel has angular momentum of its own."""
+        return False
+
+    def _momentum(self, gravity: float) -> Any:
+        """Constant angular momentum of each link, divided by gravity for a system given by mass."""
+        return np.zeros(self._base.size)
+
+    @property
+    def size(self) -> int:
+        """Number of links; 0 for a cord."""
+        raise NotImplementedError
+
+    @property
+    def mode_count(self) -> int | None:
+        """Number of modes; None if there are infinitely many, or if they are only known when they are found."""
+        raise NotImplementedError
 
     def _under(self, gravity: float) -> Any:
         """The compiled system. If given by mass, it takes masses as weights, and forces divided by gravity."""
@@ -30,6 +83,23 @@ class System(Unchangeable):
     def _force(self, gravity: float) -> float:
         """Factor that turns a force of the compiled system into a force of the results."""
         return gravity if self.by_mass else 1.0
+
+    @property
+    def _fixes_gravity(self) -> str | None:
+        """Words for the system if the heights of its modes depend on gravity, else None."""
+        return None
+
+    def _modes_again(self, modes: Any) -> Any:
+        """The compiled modes with the numbers of modes that were loaded."""
+        raise NotImplementedError
+
+    def _force_in_shape(self, gravity: float, conical_height: float, angular_speed: float) -> float:
+        """Factor that turns a force of a compiled steady shape into a force of the results."""
+        return self._force(gravity)
+
+    def _momentum_of_wheels(self, gravity: float, inclination: Any) -> float:
+        """Angular momentum of flywheels about the axis while the links are inclined."""
+        return 0.0
 
     def _state(self) -> tuple[Any, ...]:
         """The numbers, words, arrays and systems that make up the system."""

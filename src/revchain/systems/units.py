@@ -43,7 +43,7 @@ _NAMES = {
     "an angular speed": "angular_speed angle_rate spin max_angular_speed low_speed high_speed",
     "a speed": "speed velocity",
     "a time": "time period",
-    "an angle": "angle phase inclination tip_inclination clearance amplitude",
+    "an angle": "angle phase inclination lowest_inclination clearance amplitude",
     "an angular momentum": "momentum",
     "a moment of inertia": "axial_moment",
     "a fraction": "rtol",

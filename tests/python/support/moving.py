@@ -34,10 +34,10 @@ ONE = {  # a single figure
     "held cord branch": lambda: rc.branch(ROPE, 1, max_angular_speed=9.0),
     "response": lambda: rc.response(CHAIN, angular_speed=np.linspace(1.0, 9.0, 81), support_radius=0.01),
     "response at a speed": lambda: rc.response(WHEELS, angular_speed=9.0, support_radius=0.01),
-    "swing": lambda: rc.swing(CHAIN, RELEASED, None, TIMES),
-    "rig swing": lambda: rc.swing(rc.Rig(CHAIN, support=rc.Support(stiffness=200.0, mass=1.0)), RELEASED, None, TIMES),
-    "whirl swing": lambda: rc.swing(TOP, [0.1, 0.0], None, TIMES),
-    "cord swing": lambda: rc.swing(rc.Cord(1.0), lambda s: 0.1 * (1 - s), None, TIMES),
+    "swing": lambda: rc.swing(CHAIN, TIMES, offset=RELEASED),
+    "rig swing": lambda: rc.swing(rc.Rig(CHAIN, support=rc.Support(stiffness=200.0, mass=1.0)), TIMES, offset=RELEASED),
+    "whirl swing": lambda: rc.swing(TOP, TIMES, offset=[0.1, 0.0]),
+    "cord swing": lambda: rc.swing(rc.Cord(1.0), TIMES, offset=lambda s: 0.1 * (1 - s)),
 }
 SEVERAL = {
     "modes": lambda: rc.modes(CHAIN),
