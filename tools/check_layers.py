@@ -8,6 +8,7 @@ Run from anywhere; prints file:line: what is wrong, and ends with 1 when somethi
 import ast
 import re
 import sys
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -131,10 +132,11 @@ FORBIDDEN = {
 # What one compiler knows and another refuses, and the headers that hold it.
 COMPILER = r"__attribute__|__builtin_|__has_builtin|__GNUC__|__clang__|_MSC_VER|__float128|__int128|gnu::target|\b_mm\w*"
 COMPILER_HEADERS = {"numeric/compiler.hpp", "numeric/dispatch.hpp", "simd/registers.hpp"}
-# Folders of src/revchain, each of which may import from itself and those before it. Pictures and films are imported when
-# something is drawn, by the class that is drawn; they compute nothing and import only what is said here.
-PYTHON_FOLDERS = ("systems", "results", "closed_forms", "questions", "exchange", "scenes", "studies", "cli")
-PICTURES = {"plots": {"systems", "results"}, "motion": {"systems", "results", "plots"}}
+# Folders of src/revchain, each of which may import from itself and those before it, at once or later. What is drawn finds
+# its drawer by name (systems/drawing.py).
+PYTHON_FOLDERS = (
+    *("systems", "results", "closed_forms", "plots", "motion", "questions", "exchange", "scenes", "studies", "cli"),
+)
 SOURCES = {".hpp", ".cpp", ".py", ".pyi", ".sh", ".js", ".css", ".html"}
 SKIPPED = {".git", ".venv", "build", "dist", "out"}
 
@@ -309,35 +311,41 @@ def reached_from(start: str, graph: dict[str, list[str]]) -> set[str]:
 
 
 def check_python(path: Path) -> list[str]:
-    """Complains about one module of the package; the modules of ours that it imports when it is itself imported."""
+    """Complains about one module of the package; the modules of ours that it imports, at once or later."""
     here = path.relative_to(PYTHON).with_suffix("").parts
     own, ours = here[0] if len(here) > 1 else "", []
-    if len(here) > 1 and own not in {*PYTHON_FOLDERS, *PICTURES}:
+    if len(here) > 1 and own not in PYTHON_FOLDERS:
         complain(path, 1, f"unknown folder {own}; its place goes into PYTHON_FOLDERS in tools/check_layers.py")
         return []
-    for node, at_import in imports_of(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in imports_of(ast.parse(path.read_text(encoding="utf-8"))):
         package = here[: len(here) - node.level] if node.level else ("?",)
         target = (*package, *(node.module or "").split(".")) if node.module else package
         names = [target] if node.module and len(target) > 1 else [(*target, name.name) for name in node.names]
         for name in names:
             folder_of = name[0] if len(name) > 1 or name[0] in PYTHON_FOLDERS else ""
-            known = PYTHON_FOLDERS if own in PYTHON_FOLDERS else (*PYTHON_FOLDERS, *PICTURES)
-            if folder_of in known and own:
-                allowed = {own, *PICTURES[own]} if own in PICTURES else {*PYTHON_FOLDERS[: PYTHON_FOLDERS.index(own) + 1]}
-                if folder_of not in allowed:
+            if folder_of in PYTHON_FOLDERS and own:
+                if folder_of not in PYTHON_FOLDERS[: PYTHON_FOLDERS.index(own) + 1]:
                     complain(path, node.lineno, f"{own} must not import {folder_of}")
-            if at_import and (PYTHON.joinpath(*name).with_suffix(".py")).is_file():
+            if (PYTHON.joinpath(*name).with_suffix(".py")).is_file():
                 ours.append("/".join(name))
     return ours
 
 
-def imports_of(tree: ast.AST, at_import: bool = True) -> Iterator[tuple[ast.ImportFrom, bool]]:
-    """Imports that a program makes, and whether with the module itself; those for types alone are left out."""
+def print_graph(imported: dict[str, list[str]]) -> None:
+    """Prints which folders of the package each imports, with the number of imports; all to its left."""
+    for own in PYTHON_FOLDERS:
+        to = Counter(name.partition("/")[0] for path, names in imported.items() if path.startswith(f"{own}/") for name in names)
+        print(f"{own:12} {sum(path.startswith(f'{own}/') for path in imported):3} modules:", end="")
+        print("", *(f"{name} {to[name]}" for name in PYTHON_FOLDERS if name != own and to[name]), sep="  ")
+
+
+def imports_of(tree: ast.AST) -> Iterator[ast.ImportFrom]:
+    """Imports that a program makes, with the module itself or later; those for types alone are left out."""
     for node in ast.iter_child_nodes(tree):
         if isinstance(node, ast.ImportFrom):
-            yield node, at_import
+            yield node
         elif not (isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING"):
-            yield from imports_of(node, at_import and not isinstance(node, ast.FunctionDef))
+            yield from imports_of(node)
 
 
 def check_licence(path: Path, graph: dict[str, list[str]]) -> None:
@@ -388,6 +396,8 @@ def main() -> int:
     modules = sorted(PYTHON.rglob("*.py"))
     imported = {path.relative_to(PYTHON).with_suffix("").as_posix(): check_python(path) for path in modules}
     check_cycles(imported, "modules import each other")
+    if "--graph" in sys.argv[1:]:
+        print_graph(imported)
 
     for path in sorted((ROOT / "tests" / "python").rglob("*.py")):
         check_test(path)

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,9 +15,6 @@ from ..systems.chain import Chain, compiled
 from ..systems.extras import require
 from ..systems.numbers import STANDARD_GRAVITY, Floats, one_positive, real, shown
 from .table import described
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 
 class Strike(NamedTuple):
@@ -157,21 +154,6 @@ class BellAndClapper(Result):
         from .strike import first_strike
 
         return Strike(*first_strike(self.present, gap, from_angle, self.gravity))
-
-    @described()
-    def plot(self, ax: Axes | None = None) -> Axes:
-        """Draw bell, clapper and headstock at rest, true to scale; needs matplotlib.
-
-        returns: The drawing: the axle, the pin of the clapper, both centres of gravity, and the pendulum lengths beside
-            them. The outline of the bell is only an illustration: the data do not define it.
-
-        >>> links = {"mass": [18, 500], "length": [0.65, 0.15], "centroid": [0.52, 0.05]}
-        >>> rc.bell_and_clapper(rc.Chain(**links, radius_of_gyration=[0.08, 0.36])).plot().get_ylabel()
-        'depth below axle (m)'
-        """
-        from ..plots.bell import plot_bell
-
-        return plot_bell(self, ax)
 
     def _sheet(self, brief: bool = False) -> Sheet:
         columns = [

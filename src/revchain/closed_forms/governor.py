@@ -7,7 +7,7 @@ from the downward vertical. Source: Greenhill (1908), section 7.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from numpy.typing import ArrayLike
 
@@ -17,8 +17,6 @@ from ..systems.numbers import STANDARD_GRAVITY
 from .solved import Solved
 from .table import FloatOrArray, described
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 __all__ = ["GovernorMotion", "GovernorState"]
 
@@ -80,20 +78,6 @@ class GovernorMotion(Solved):
         array([1.5   , 1.2026])
         """
         return GovernorState(*self._at("state", "time", time))
-
-    @described()
-    def plot(self, ax: Axes | None = None, *, duration: float | None = None) -> Axes:
-        """Draw the angle against time, with its smallest and largest values; needs matplotlib.
-
-        duration: Length of the time axis in s; two periods if left out.
-        raises: If the motion never returns and no `duration` is given, or if `duration` is not positive and finite.
-
-        >>> rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5).plot().get_ylabel()
-        'angle (degrees)'
-        """
-        from ..plots.closed_forms import plot_governor
-
-        return plot_governor(self, ax, duration)
 
     def _heading(self) -> str:
         return self.regime

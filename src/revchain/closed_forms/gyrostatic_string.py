@@ -4,16 +4,14 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from numpy.typing import ArrayLike
 
 from .. import _core
-from ..systems.numbers import STANDARD_GRAVITY, count, floats, numbers, one_positive, real, refuse_where
+from ..systems.drawing import Plot
+from ..systems.numbers import STANDARD_GRAVITY, floats, numbers, one_positive, real, refuse_where
 from .table import FloatOrArray, described
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 
 class WaveSpeeds(NamedTuple):
@@ -63,6 +61,9 @@ class GyrostaticString:
     >>> float(wheels.plane_rotation(20.0).round(6))
     0.070144
     """
+
+    plot = Plot()
+    plot_vibration = Plot("vibration")
 
     weight: float
     length: float
@@ -134,40 +135,6 @@ class GyrostaticString:
         speed = floats(place, "angular_speed", angular_speed)
         refuse_where(~(speed > 0), speed, f"{place}: angular_speed must be positive")
         return self._at("plane_rotation", "angular_speed", speed, _core.gyrostatic_string_rotation)[0]
-
-    @described()
-    def plot(self, ax: Axes | None = None) -> Axes:
-        """Draw the speeds of circular waves in both directions against their phase; needs matplotlib.
-
-        >>> string = rc.GyrostaticString(weight=9.80665, length=1.0, tension=100.0, momentum=1.0)
-        >>> string.plot().get_xlabel()
-        'phase difference between links (degrees)'
-        """
-        from ..plots.closed_forms import plot_waves
-
-        return plot_waves(self, ax)
-
-    @described()
-    def plot_vibration(self, angular_speed: float, links: int = 60, ax: Axes | None = None) -> Axes:
-        """Draw the turning plane of a vibration along the string, from the side and from the end; needs matplotlib.
-
-        angular_speed: Angular frequency of the vibration, rad/s
-        links: Number of links to draw.
-        raises: If one of the two circular waves does not pass at that speed.
-
-        >>> string = rc.GyrostaticString(weight=9.80665, length=1.0, tension=100.0, momentum=1.0)
-        >>> string.plot_vibration(8.0).get_xlabel()
-        'link'
-        """
-        from ..plots.closed_forms import plot_vibration
-
-        place = "revchain.GyrostaticString.plot_vibration"
-        speed = one_positive(place, "angular_speed", angular_speed)
-        size = count(place, "links", links, each=64)
-        turn = float(self.plane_rotation(speed))
-        if turn != turn:
-            raise ValueError(f"{place}: a circular wave does not pass at angular_speed, got {speed:g}")
-        return plot_vibration(turn, float(self.phase(speed) + self.phase(-speed)) / 2, size, ax)
 
     def _at(self, method: str, name: str, value: ArrayLike, function: Any) -> tuple[FloatOrArray, ...]:
         return tuple(numbers(function(floats(f"revchain.GyrostaticString.{method}", name, value), **asdict(self))))

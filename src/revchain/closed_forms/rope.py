@@ -7,18 +7,16 @@ Greenhill (1908), section 5.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from numpy.typing import ArrayLike
 
 from .. import _core
 from ..results.base import Field
-from ..systems.numbers import STANDARD_GRAVITY, one_positive, real
+from ..systems.numbers import STANDARD_GRAVITY, real
 from .solved import Solved
 from .table import FloatOrArray, described
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 __all__ = ["RopePoints", "SkippingRope", "TortuousPoints", "TortuousRope"]
 
@@ -148,17 +146,6 @@ class SkippingRope(Solved):
         kept["span"] = real("revchain.SkippingRope.drawn_to", "span", span)
         return SkippingRope(**kept, angular_speed=momentum / SkippingRope(**kept).moment_of_inertia)
 
-    @described()
-    def plot(self, ax: Axes | None = None) -> Axes:
-        """Draw the rope seen from the side; needs matplotlib.
-
-        >>> rc.SkippingRope(span=2.0, length=3.0).plot().get_xlabel()
-        'along the axis (m)'
-        """
-        from ..plots.closed_forms import plot_skipping_rope
-
-        return plot_skipping_rope(self, ax)
-
     def _table(self) -> dict[str, str]:
         pulls = {"tension_in_the_middle": "tension: middle", "tension_at_ends": "at ends"}
         known = {"angular_speed": "speed (rad/s)", **pulls, "conical_height": ""} if self.has_speed else {}
@@ -220,21 +207,6 @@ class TortuousRope(Solved):
         array([0.5, 1. ])
         """
         return TortuousPoints(*self._at("at", "x", x))
-
-    @described()
-    def plot(self, ax: Axes | None = None, *, half_waves: float = 4.0) -> Axes:
-        """Draw the rope seen along the axis, with the circles of its smallest and largest distance; needs matplotlib.
-
-        half_waves: Number of half waves to draw, from a point nearest to the axis; positive and finite
-
-        >>> rope = rc.TortuousRope(least_radius=0.5, greatest_radius=1.0, angular_speed=5.0, tension=2.0)
-        >>> rope.plot().get_xlabel()
-        'x (m)'
-        """
-        from ..plots.closed_forms import plot_tortuous_rope
-
-        long = one_positive("revchain.TortuousRope.plot", "half_waves", half_waves)
-        return plot_tortuous_rope(self, ax, long)
 
     def _heading(self) -> str:
         return f"{self._given['angular_speed']:g} rad/s, tension {self._given['tension']:g}"

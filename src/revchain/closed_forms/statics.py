@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,9 +13,6 @@ from ..results.sheet import Column, Sheet, speed_columns
 from ..systems.numbers import STANDARD_GRAVITY, Floats, floats, one_positive, positive, real, reals
 from . import conical_pendulum
 from .table import described
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 
 class TransverseModes(Result):
@@ -106,21 +102,6 @@ class FunicularPolygon(Result):
         array([2.      , 0.666667])
         """
         return transverse_modes(self.weight, self.place, self.horizontal_tension, gravity=gravity)
-
-    @described()
-    def plot(self, axes: tuple[Axes, Axes] | None = None) -> tuple[Axes, Axes]:
-        """Draw the polygon and its force diagram side by side, sides and rays in the same colours; needs matplotlib.
-
-        returns: Axes of the polygon (with the weights also moved to a horizontal line) and of the force diagram.
-
-        >>> line = rc.funicular_polygon([1.0, 1.0], [0.0, 1.0, 2.0, 3.0], horizontal_tension=0.5)
-        >>> polygon, forces = line.plot()
-        >>> polygon.get_title()
-        'funicular polygon'
-        """
-        from ..plots.closed_forms import plot_funicular_polygon
-
-        return plot_funicular_polygon(self, axes)
 
     def _sheet(self, brief: bool = False) -> Sheet:
         gap = [np.nan]

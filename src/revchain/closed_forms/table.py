@@ -176,15 +176,18 @@ def closed_form(
 
 
 def described(
-    accuracy: str = "", source: str = "", cost: str = "", *, computed: bool = False
+    accuracy: str = "", source: str = "", cost: str = "", *, computed: bool = False, bound: bool = False
 ) -> Callable[[Thing], Thing]:
-    """Write the docstring of a function or a class from its signature and its short docstring, by a decorator."""
+    """Write the docstring of a function or a class from its signature and its short docstring, by a decorator.
+
+    With `bound` the function is a method of its first argument, which the docstring leaves out.
+    """
 
     def decorated(thing: Thing) -> Thing:
         if thing.__doc__ is None:  # Python was started with -OO
             return thing
         parameters = dict(inspect.signature(thing).parameters)
-        parameters.pop("self", None)
+        parameters.pop(next(iter(parameters), "") if bound else "self", None)
         summary, prose, texts, examples = _read(thing.__doc__, {*parameters, "returns", "raises", "notes"})
         sections = [summary, *prose]
         if parameters:

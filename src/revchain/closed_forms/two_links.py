@@ -86,7 +86,6 @@ class SwungLink(NamedTuple):
     condition: FloatOrArray
 
 
-
 def _shapes(found: Sequence[Any]) -> list[PairShape]:
     return [PairShape._made(each) for each in found]
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..closed_forms.table import described
 from .style import axes_or_new, legend_outside
 
 if TYPE_CHECKING:
@@ -15,8 +16,17 @@ if TYPE_CHECKING:
     from ..closed_forms.bell import BellAndClapper
 
 
-def plot_bell(bell: BellAndClapper, ax: Axes | None) -> Axes:
-    """See `BellAndClapper.plot`. Depths below the axle count downwards."""
+@described(bound=True)
+def plot_bell(bell: BellAndClapper, ax: Axes | None = None) -> Axes:
+    """Draw bell, clapper and headstock at rest, true to scale; needs matplotlib.
+
+    returns: The drawing: the axle, the pin of the clapper, both centres of gravity, and the pendulum lengths beside
+        them. The outline of the bell is only an illustration: the data do not define it.
+
+    >>> links = {"mass": [18, 500], "length": [0.65, 0.15], "centroid": [0.52, 0.05]}
+    >>> rc.bell_and_clapper(rc.Chain(**links, radius_of_gyration=[0.08, 0.36])).plot().get_ylabel()
+    'depth below axle (m)'
+    """
     data = bell.present
     pin, h1, h2 = data["joint"], data["clapper_centroid"], data["bell_centroid"]
     l1, l2 = (h + data[f"{name}_radius_of_gyration"] ** 2 / h if h else np.inf for name, h in (("clapper", h1), ("bell", h2)))

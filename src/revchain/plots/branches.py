@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
 
-    from ..results.branches import Branch
+    from ..results.branches import Branch, Branches
 
 QUANTITIES = {
     "lowest_inclination": "inclination of the lowest link (degrees)",
@@ -39,8 +39,80 @@ def words_of(quantity: str, by_mass: bool) -> str:
     return QUANTITIES[quantity] if by_mass else BY_WEIGHT.get(quantity, QUANTITIES[quantity])
 
 
-def plot_branches(branches: Sequence[Branch], ax: Axes | None, *, quantity: str | None, place: str) -> Axes:
-    """See `Branches.plot`."""
+def plot_branch(branch: Branch, ax: Axes | None = None, *, quantity: str | None = None) -> Axes:
+    """Draw a quantity of the branch against the speed; folds are marked.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw in; a new figure if left out.
+    quantity : str, optional
+        Quantity to draw: ``lowest_inclination`` (in degrees; of hanging systems unless given), ``tip_radius``,
+        ``largest_offset`` (of held systems unless given), ``top_tension``, ``moment_of_inertia`` or
+        ``effective_energy``.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        The drawing.
+
+    Raises
+    ------
+    ValueError
+        If `quantity` is another word, or one that the system does not have.
+    ImportError
+        If matplotlib is not installed; the message says how to install it.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> ax = rc.branch(rc.Chain.uniform_plummets(2, length=2.0), 1, min_conical_height=0.1).plot()
+    >>> ax.get_ylabel()
+    'inclination of the lowest link (degrees)'
+    """
+    return _curves([branch], ax, quantity, "revchain.Branch.plot")
+
+
+def plot_branches(branches: Branches, ax: Axes | None = None, *, quantity: str | None = None) -> Axes:
+    """Draw the bifurcation diagram: a quantity of each branch against the speed.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw in; a new figure if left out.
+    quantity : str, optional
+        Quantity to draw, as in `Branch.plot`.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        The drawing. Colours show half waves, hollow marks folds. Isolated branches are dashed, with the speed at
+        which each starts. The title says whether the diagram is `complete`.
+
+    Raises
+    ------
+    ValueError
+        If `quantity` is another word, or one that the system does not have.
+    ImportError
+        If matplotlib is not installed; the message says how to install it.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> ax = rc.branches(rc.Chain.uniform_plummets(3, length=3.0), min_conical_height=0.04).plot()
+    >>> ax.get_xlabel()
+    'speed (rad/s)'
+    """
+    ax = _curves(branches, ax, quantity, "revchain.Branches.plot")
+    if not branches:
+        ax.set_title("no shape at or above this conical height")
+    elif hasattr(branches, "complete"):
+        ax.set_title("all branches: proved complete" if branches.complete else "branches found: not proved complete")
+    return ax
+
+
+def _curves(branches: Sequence[Branch], ax: Axes | None, quantity: str | None, place: str) -> Axes:
+    """A curve for each branch."""
     available = [name for name in QUANTITIES if not len(branches) or hasattr(branches[0], name)]
     if quantity is None:
         quantity = "largest_offset" if len(branches) and "tip_radius" not in available else "lowest_inclination"

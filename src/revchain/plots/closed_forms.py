@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..systems.numbers import one_positive, refuse_beyond_memory, shown
+from ..closed_forms.table import described
+from ..systems.numbers import count, one_positive, refuse_beyond_memory, shown
 from .style import WIDEST, axes_or_new, checked_axes, keep_room, legend_outside, new_figure
 
 if TYPE_CHECKING:
@@ -57,8 +58,35 @@ def _finish(ax: Axes, across: str, up: str, title: str) -> None:
     ax.locator_params(axis="x", nbins=3 if ax.dataLim.height > 2.5 * ax.dataLim.width else 5)
 
 
-def plot_force_diagram(diagram: ForceDiagram, axes: tuple[Axes, Axes] | None) -> tuple[Axes, Axes]:
-    """See `ForceDiagram.plot`."""
+def plot_force_diagram(
+    diagram: ForceDiagram, axes: tuple[Axes, Axes] | None = None
+) -> tuple[Axes, Axes]:
+    """Draw the shape and its force diagram side by side, with the letters of Fig. 3 of the paper.
+
+    Parameters
+    ----------
+    axes : pair of matplotlib.axes.Axes, optional
+        Axes to draw in; a new figure if left out.
+
+    Returns
+    -------
+    pair of matplotlib.axes.Axes
+        Axes of the shape and of the forces. The weights lifted onto the line through N are drawn to a
+        scale in which ON is the mean weight.
+
+    Raises
+    ------
+    ImportError
+        If matplotlib is not installed; the message says how to install it.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> shape = rc.steady_shapes(rc.Chain.uniform_plummets(3, length=3.0), conical_height=0.5)[0]
+    >>> figure, forces = shape.force_diagram().plot()
+    >>> forces.get_title()
+    'force diagram'
+    """
     figure, forces = _two_axes(axes, WIDEST, 5.5)
     pin, ray, reaction, load = diagram.pin, diagram.ray, diagram.reaction, diagram.load
     count, height = len(ray), diagram.conical_height
@@ -117,8 +145,19 @@ def plot_force_diagram(diagram: ForceDiagram, axes: tuple[Axes, Axes] | None) ->
     return figure, forces
 
 
-def plot_funicular_polygon(polygon: FunicularPolygon, axes: tuple[Axes, Axes] | None) -> tuple[Axes, Axes]:
-    """See `FunicularPolygon.plot`."""
+@described(bound=True)
+def plot_funicular_polygon(
+    polygon: FunicularPolygon, axes: tuple[Axes, Axes] | None = None
+) -> tuple[Axes, Axes]:
+    """Draw the polygon and its force diagram side by side, sides and rays in the same colours; needs matplotlib.
+
+    returns: Axes of the polygon (with the weights also moved to a horizontal line) and of the force diagram.
+
+    >>> line = rc.funicular_polygon([1.0, 1.0], [0.0, 1.0, 2.0, 3.0], horizontal_tension=0.5)
+    >>> polygon, forces = line.plot()
+    >>> polygon.get_title()
+    'funicular polygon'
+    """
     left, forces = _two_axes(axes, WIDEST, 4.0)
     x, z, rise, pull = polygon.place, polygon.height, polygon.rise, polygon.horizontal_tension
     lettered = len(x) - 2 <= MAX_LETTERED
@@ -143,8 +182,13 @@ def plot_funicular_polygon(polygon: FunicularPolygon, axes: tuple[Axes, Axes] | 
     return left, forces
 
 
-def plot_skipping_rope(rope: SkippingRope, ax: Axes | None) -> Axes:
-    """See `SkippingRope.plot`."""
+@described(bound=True)
+def plot_skipping_rope(rope: SkippingRope, ax: Axes | None = None) -> Axes:
+    """Draw the rope seen from the side; needs matplotlib.
+
+    >>> rc.SkippingRope(span=2.0, length=3.0).plot().get_xlabel()
+    'along the axis (m)'
+    """
     refuse_beyond_memory("revchain.SkippingRope.plot", "half_waves", rope.half_waves, 200 * BYTES)
     ax = axes_or_new(ax, 6.4, 4.0)
     places = rope.at_arc(np.linspace(0.0, rope.length, 200 * rope.half_waves + 1))
@@ -156,8 +200,17 @@ def plot_skipping_rope(rope: SkippingRope, ax: Axes | None) -> Axes:
     return ax
 
 
-def plot_tortuous_rope(rope: TortuousRope, ax: Axes | None, half_waves: float) -> Axes:
-    """See `TortuousRope.plot`."""
+@described(bound=True)
+def plot_tortuous_rope(rope: TortuousRope, ax: Axes | None = None, *, half_waves: float = 4.0) -> Axes:
+    """Draw the rope seen along the axis, with the circles of its smallest and largest distance; needs matplotlib.
+
+    half_waves: Number of half waves to draw, from a point nearest to the axis; positive and finite
+
+    >>> rope = rc.TortuousRope(least_radius=0.5, greatest_radius=1.0, angular_speed=5.0, tension=2.0)
+    >>> rope.plot().get_xlabel()
+    'x (m)'
+    """
+    half_waves = one_positive("revchain.TortuousRope.plot", "half_waves", half_waves)
     refuse_beyond_memory("revchain.TortuousRope.plot", "half_waves", int(half_waves), 200 * BYTES)
     ax = axes_or_new(ax, 5.0, 5.0)
     places = rope.at(np.linspace(0.0, half_waves * rope.half_wave, 1 + int(200 * max(half_waves, 1.0))))
@@ -175,8 +228,18 @@ def plot_tortuous_rope(rope: TortuousRope, ax: Axes | None, half_waves: float) -
     return ax
 
 
-def plot_governor(motion: GovernorMotion, ax: Axes | None, duration: float | None) -> Axes:
-    """See `GovernorMotion.plot`."""
+@described(bound=True)
+def plot_governor(
+    motion: GovernorMotion, ax: Axes | None = None, *, duration: float | None = None
+) -> Axes:
+    """Draw the angle against time, with its smallest and largest values; needs matplotlib.
+
+    duration: Length of the time axis in s; two periods if left out.
+    raises: If the motion never returns and no `duration` is given, or if `duration` is not positive and finite.
+
+    >>> rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5).plot().get_ylabel()
+    'angle (degrees)'
+    """
     place = "revchain.GovernorMotion.plot"
     if duration is None:
         if motion.regime == "asymptotic":
@@ -193,8 +256,14 @@ def plot_governor(motion: GovernorMotion, ax: Axes | None, duration: float | Non
     return ax
 
 
-def plot_waves(string: GyrostaticString, ax: Axes | None) -> Axes:
-    """See `GyrostaticString.plot`."""
+@described(bound=True)
+def plot_waves(string: GyrostaticString, ax: Axes | None = None) -> Axes:
+    """Draw the speeds of circular waves in both directions against their phase; needs matplotlib.
+
+    >>> string = rc.GyrostaticString(weight=9.80665, length=1.0, tension=100.0, momentum=1.0)
+    >>> string.plot().get_xlabel()
+    'phase difference between links (degrees)'
+    """
     ax = axes_or_new(ax, 6.4, 4.0)
     phase = np.linspace(0.0, np.pi, 200)[1:]
     speeds = string.angular_speeds(phase)
@@ -209,8 +278,25 @@ def plot_waves(string: GyrostaticString, ax: Axes | None) -> Axes:
     return ax
 
 
-def plot_vibration(turn: float, phase: float, links: int, ax: Axes | None) -> Axes:
-    """See `GyrostaticString.plot_vibration`; the plane turns by `turn` from link to link, the wave by `phase`."""
+@described(bound=True)
+def plot_vibration(string: GyrostaticString, angular_speed: float, links: int = 60, ax: Axes | None = None) -> Axes:
+    """Draw the turning plane of a vibration along the string, from the side and from the end; needs matplotlib.
+
+    angular_speed: Angular frequency of the vibration, rad/s
+    links: Number of links to draw.
+    raises: If one of the two circular waves does not pass at that speed.
+
+    >>> string = rc.GyrostaticString(weight=9.80665, length=1.0, tension=100.0, momentum=1.0)
+    >>> string.plot_vibration(8.0).get_xlabel()
+    'link'
+    """
+    place = "revchain.GyrostaticString.plot_vibration"
+    speed = one_positive(place, "angular_speed", angular_speed)
+    links = count(place, "links", links, each=64)
+    turn = float(string.plane_rotation(speed))  # of the plane, from link to link
+    if turn != turn:
+        raise ValueError(f"{place}: a circular wave does not pass at angular_speed, got {speed:g}")
+    phase = float(string.phase(speed) + string.phase(-speed)) / 2
     ax = axes_or_new(ax, 8.0, 4.0)
     pin = np.arange(links + 1)
     wave, angle = np.cos(phase * pin), turn * pin

@@ -190,8 +190,31 @@ def floating(system: System) -> NDArray[np.bool_]:
     return np.broadcast_to(next(iter(displaced._given.values())), base.size) > np.broadcast_to(base._compiled.weight, base.size)
 
 
-def plot_system(system: System, ax: Axes | None) -> Axes:
-    """A system at rest; see `Chain.plot`."""
+def plot_system(system: System, ax: Axes | None = None) -> Axes:
+    """Draw the system at rest, true to scale along the axis.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw in; a new figure if left out.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        The drawing: pins, centres of gravity (larger dots are heavier) and names of up to 40 links. Inverted links
+        are thick, wheels are seen edge-on, bodies that float are hollow, and a cord is thicker where it is heavier.
+
+    Raises
+    ------
+    ImportError
+        If matplotlib is not installed; the message says how to install it.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> rc.Chain(mass=[1.0, 2.0], length=[0.5, 0.3]).plot().get_ylabel()
+    'depth below the support (m)'
+    """
     ax = axes_or_new(ax, 4.2, 6.0)
     straight = Straight(system)
     straight.at_rest(ax)
@@ -241,9 +264,51 @@ def rows_of(place: str, modes: Modes, which: Iterable[int] | None) -> Whole:
     return np.concatenate([np.flatnonzero(modes.number == number) for number in numbers])
 
 
-def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, carried: Response | None = None) -> Axes:
-    """See `Modes.plot`."""
-    place = f"revchain.{type(modes).__name__}.plot"
+def plot_modes(
+    found: Modes,
+    ax: Axes | None = None,
+    modes: Iterable[int] | None = None,
+    *,
+    carried: Response | None = None,
+) -> Axes:
+    """Draw the system at rest and, beside it, the mode shapes, each along its own axis; rings mark the nodes.
+
+    Forward modes of a rig with flywheels are blue, backward ones red; inverted links are thick.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw in; a new figure if left out.
+    modes : iterable of int, optional
+        Numbers of the modes to draw (for a rig, of both directions); the six slowest of this result if left out.
+    carried : Response, optional
+        Response of the same system at one speed with all pins, drawn first, with its support on its circle.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        The drawing.
+
+    Raises
+    ------
+    ValueError
+        If `modes` has a number that is not in this result, the result is empty, or `carried` is not such a response.
+    ImportError
+        If matplotlib is not installed; the message says how to install it.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> ax = rc.modes(rc.Chain.uniform_rods(120, length=0.36), 4).plot()
+    >>> ax.get_ylabel()
+    'depth below the support (m)'
+    """
+    return _beside(found, ax, modes, carried)
+
+
+def _beside(modes: Modes, ax: Axes | None, which: Iterable[int] | None, carried: Response | None) -> Axes:
+    """The system at rest and, beside it, the response and the modes."""
+    place = "revchain.Modes.plot"
     system = modes.system
     if carried is not None and not isinstance(carried, Response):
         raise TypeError(f"{place}: carried must be a revchain.Response, got {shown(carried)}")

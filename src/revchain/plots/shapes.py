@@ -14,7 +14,7 @@ from .style import MOST_PINS_AS_DOTS, half_waves_style, keep_room, legend_outsid
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from ..results.shapes import SteadyShape
+    from ..results.shapes import SteadyShape, SteadyShapes
 
 
 def _fitting_height(shapes: Sequence[SteadyShape]) -> float:
@@ -24,8 +24,66 @@ def _fitting_height(shapes: Sequence[SteadyShape]) -> float:
     return float(np.clip(1.2 + 5.0 * tall / wide, 3.4, 6.0)) if wide else 6.0
 
 
-def plot_shapes(shapes: Sequence[SteadyShape], ax: Axes | None) -> Axes:
-    """See `SteadyShapes.plot`; dots mark the pins of links, of cords the free end."""
+def plot_shape(shape: SteadyShape, ax: Axes | None = None) -> Axes:
+    """Draw the shape, true to scale.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw in; a new figure if left out.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        The drawing.
+
+    Raises
+    ------
+    ImportError
+        If matplotlib is not installed; the message says how to install it.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> ax = rc.steady_shapes(rc.Chain.uniform_plummets(3, length=1.0), conical_height=0.05)[0].plot()
+    >>> ax.get_xlabel()
+    'distance from axis (m)'
+    """
+    return _curves([shape], ax)
+
+
+def plot_shapes(shapes: SteadyShapes, ax: Axes | None = None) -> Axes:
+    """Draw all shapes in one picture, true to scale, coloured by half waves.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw in; a new figure if left out.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        The drawing.
+
+    Raises
+    ------
+    ImportError
+        If matplotlib is not installed; the message says how to install it.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> ax = rc.steady_shapes(rc.Chain.uniform_plummets(3, length=1.0), conical_height=0.02).plot()
+    >>> ax.get_title()
+    '5 hanging shapes, proved complete'
+    """
+    ax = _curves(shapes, ax)
+    ax.set_title(shapes._how_many())
+    return ax
+
+
+def _curves(shapes: Sequence[SteadyShape], ax: Axes | None) -> Axes:
+    """A curve for each shape; dots mark the pins of links, of cords the free end."""
     ax = beside_at_rest(shapes[0].system if len(shapes) else None, ax, 6.2, _fitting_height(shapes))
     ax.axvline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
     named: set[int] = set()

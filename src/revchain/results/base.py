@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, Self, TypeVar, overloa
 
 import numpy as np
 
+from ..systems.drawing import Plot
 from ..systems.numbers import integer, read_only, shown
 from ..systems.unchangeable import Unchangeable
+from .kinds import KINDS, restored
 from .sheet import Column, Sheet, as_dataframe, as_dataset, as_dict, as_html, as_rows, as_text
 
 if TYPE_CHECKING:
@@ -140,9 +142,9 @@ class Result(Unchangeable):
     """
 
     __slots__ = ("__dict__",)  # has the fields known so far and, as `_core`, the compiled result
+    plot = Plot()
     _core: Any
     _fields: ClassVar[dict[str, Field[Any]]] = {}
-    _kinds: ClassVar[dict[str, type[Result]]] = {}
     _row: ClassVar[str] = "row"
     _title: ClassVar[str] = ""
     _notes: ClassVar[tuple[str, ...]] = ()
@@ -156,7 +158,7 @@ class Result(Unchangeable):
         own = {name: value for name, value in vars(cls).items() if isinstance(value, Field)}
         cls._fields = {**cls._fields, **own}
         if cls.__module__.startswith("revchain."):  # a class of a caller must not replace one of ours
-            Result._kinds[cls.__name__] = cls
+            KINDS[cls.__name__] = cls
 
     def __init__(self) -> None:
         raise TypeError(
@@ -398,11 +400,6 @@ def _not_there(result: Any, name: str) -> str:
 
 
 _HOLD = (np.ndarray, list, tuple, dict)  # types that may hold writable arrays
-
-
-def restored(kind: type[Result], state: dict[str, Any]) -> Result:
-    """The result of a class from its state."""
-    return kind._made(None, **state)
 
 
 def frozen(value: Any) -> Any:

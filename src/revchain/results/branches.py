@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,8 +14,6 @@ from .base import Field, Result, Results, UnavailableError
 from .moving import Moving
 from .shapes import FORCES, SteadyShape, forced, is_driven, shape_made, stacked
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 Pair = tuple[float, float]
 
@@ -288,41 +286,6 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
             for s0, s1, h0, h1, verdict in found
         ]
 
-    def plot(self, ax: Axes | None = None, *, quantity: str | None = None) -> Axes:
-        """Draw a quantity of the branch against the speed; folds are marked.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw in; a new figure if left out.
-        quantity : str, optional
-            Quantity to draw: ``lowest_inclination`` (in degrees; of hanging systems unless given), ``tip_radius``,
-            ``largest_offset`` (of held systems unless given), ``top_tension``, ``moment_of_inertia`` or
-            ``effective_energy``.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The drawing.
-
-        Raises
-        ------
-        ValueError
-            If `quantity` is another word, or one that the system does not have.
-        ImportError
-            If matplotlib is not installed; the message says how to install it.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> ax = rc.branch(rc.Chain.uniform_plummets(2, length=2.0), 1, min_conical_height=0.1).plot()
-        >>> ax.get_ylabel()
-        'inclination of the lowest link (degrees)'
-        """
-        from ..plots.branches import plot_branches
-
-        return plot_branches([self], ax, quantity=quantity, place="revchain.Branch.plot")
-
     @property
     def _per(self) -> float:
         return float(self.system._force(self.gravity))
@@ -419,45 +382,6 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}"):
     )
     remark: Field[str] = Field("A sentence that says what may be missing.", fact=True)
     looked_at: Field[Floats] = Field("Conical heights at which all shapes were listed, m, descending.", fact=True)
-
-    def plot(self, ax: Axes | None = None, *, quantity: str | None = None) -> Axes:
-        """Draw the bifurcation diagram: a quantity of each branch against the speed.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw in; a new figure if left out.
-        quantity : str, optional
-            Quantity to draw, as in `Branch.plot`.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The drawing. Colours show half waves, hollow marks folds. Isolated branches are dashed, with the speed at
-            which each starts. The title says whether the diagram is `complete`.
-
-        Raises
-        ------
-        ValueError
-            If `quantity` is another word, or one that the system does not have.
-        ImportError
-            If matplotlib is not installed; the message says how to install it.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> ax = rc.branches(rc.Chain.uniform_plummets(3, length=3.0), min_conical_height=0.04).plot()
-        >>> ax.get_xlabel()
-        'speed (rad/s)'
-        """
-        from ..plots.branches import plot_branches
-
-        ax = plot_branches(self, ax, quantity=quantity, place="revchain.Branches.plot")
-        if not self:
-            ax.set_title("no shape at or above this conical height")
-        elif hasattr(self, "complete"):
-            ax.set_title("all branches: proved complete" if self.complete else "branches found: not proved complete")
-        return ax
 
     def _from_parts(self) -> Any:
         what = "the branches of a held system do not have it; steady_shapes proves a list"

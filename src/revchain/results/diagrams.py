@@ -3,15 +3,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..systems.numbers import Floats, Whole
 from .base import Field, Result
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 
 def _component(name: str, k: int) -> Field[Floats]:
@@ -72,37 +68,6 @@ class ForceDiagram(Result, row="link", title="ForceDiagram: {_links} links, coni
         heading="crossing",
     )
     conical_height: Field[float] = Field("Conical height of the speed: the distances ON and HK.", fact=True)
-
-    def plot(self, axes: tuple[Axes, Axes] | None = None) -> tuple[Axes, Axes]:
-        """Draw the shape and its force diagram side by side, with the letters of Fig. 3 of the paper.
-
-        Parameters
-        ----------
-        axes : pair of matplotlib.axes.Axes, optional
-            Axes to draw in; a new figure if left out.
-
-        Returns
-        -------
-        pair of matplotlib.axes.Axes
-            Axes of the shape and of the forces. The weights lifted onto the line through N are drawn to a
-            scale in which ON is the mean weight.
-
-        Raises
-        ------
-        ImportError
-            If matplotlib is not installed; the message says how to install it.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> shape = rc.steady_shapes(rc.Chain.uniform_plummets(3, length=3.0), conical_height=0.5)[0]
-        >>> figure, forces = shape.force_diagram().plot()
-        >>> forces.get_title()
-        'force diagram'
-        """
-        from ..plots.closed_forms import plot_force_diagram
-
-        return plot_force_diagram(self, axes)
 
     @property
     def _links(self) -> int:

@@ -16,9 +16,6 @@ from .base import Field, Result, Row, UnavailableError
 from .moving import Moving
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-    from .motions import Response
     from .sensitivity import Sensitivity, Uncertainty
 
 Complex = NDArray[np.complex128]
@@ -474,45 +471,6 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         given = {name: value for name, value in locals().items() if name in _DEVIATIONS and value is not None}
         found: Uncertainty = uncertainty_of_modes(self, given)
         return found
-
-    def plot(
-        self, ax: Axes | None = None, modes: Iterable[int] | None = None, *, carried: Response | None = None
-    ) -> Axes:
-        """Draw the system at rest and, beside it, the mode shapes, each along its own axis; rings mark the nodes.
-
-        Forward modes of a rig with flywheels are blue, backward ones red; inverted links are thick.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw in; a new figure if left out.
-        modes : iterable of int, optional
-            Numbers of the modes to draw (for a rig, of both directions); the six slowest of this result if left out.
-        carried : Response, optional
-            Response of the same system at one speed with all pins, drawn first, with its support on its circle.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The drawing.
-
-        Raises
-        ------
-        ValueError
-            If `modes` has a number that is not in this result, the result is empty, or `carried` is not such a response.
-        ImportError
-            If matplotlib is not installed; the message says how to install it.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> ax = rc.modes(rc.Chain.uniform_rods(120, length=0.36), 4).plot()
-        >>> ax.get_ylabel()
-        'depth below the support (m)'
-        """
-        from ..plots.modes import plot_modes
-
-        return plot_modes(self, ax, modes, carried)
 
     def along(self, arc_length: ArrayLike) -> Floats:
         """Return the offsets of all modes of a cord at places of the cord.

@@ -3,20 +3,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core
-from ..systems.numbers import Floats, Numbers, Whole, boolean
+from ..systems.numbers import Floats, Numbers, Whole
 from .base import Field, Result
 from .moving import Moving
 from .sheet import Column, Sheet, speed_columns
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 Flags = NDArray[np.bool_]
 Complex = NDArray[np.complex128]
@@ -76,61 +73,25 @@ class Response(Result, Moving):
         "Horizontal outward pull of the chain on the moving support, N or in the unit of the weights, shape (...).",
     )
     support_force_error: Field[Floats] = Field("Proved bound of the error of `support_force`, in its unit.")
+    whirl_speeds: Field[Floats] = Field(
+        "The whirl speeds of the chain with a fixed support between the smallest and the largest speed, rad/s: the resonances. "
+        "Empty for a rig, and if there are more than 60.",
+        lambda r: r._resonances(),
+    )
 
-    def plot(self, ax: Axes | None = None, pins: Iterable[int] | None = None, *, resonances: bool = True) -> Axes:
-        """Draw the distances of pins from the axis against the speed, on a logarithmic scale.
-
-        A line is dashed if the pin is on the side opposite to the support; vertical lines mark the resonances.
-        A response at one speed is drawn as a shape: the offsets of the pins against their depths.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw in; a new figure if left out.
-        pins : iterable of int, optional
-            Numbers of the pins to draw. If left out: the lowest and up to three others, evenly spaced; all at a
-            single speed.
-        resonances : bool
-            Whether to mark the whirl speeds in the range of the plot; a `Rig` has no marks.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The drawing.
-
-        Raises
-        ------
-        ValueError
-            If `pins` has a pin that is not in this result, or the result has no speed.
-        ImportError
-            If matplotlib is not installed; the message says how to install it.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> import revchain as rc
-        >>> chain = rc.Chain.uniform_rods(20, length=0.36)
-        >>> ax = rc.response(chain, angular_speed=np.linspace(1.0, 30.0, 400)).plot()
-        >>> ax.get_xlabel()
-        'angular speed (rad/s)'
-        """
-        from ..plots.response import plot_response
-
-        marked = boolean("Response.plot", "resonances", resonances) and self.system._kind == "chain"
-        return plot_response(self, ax, pins, self._resonances() if marked else [])
-
-    def _resonances(self) -> list[float]:
+    def _resonances(self) -> Floats:
         """Whirl speeds between the smallest and the largest speed."""
-        speed, core = self.angular_speed.reshape(-1), self.system._compiled
-        if speed.size == 0 or not 0 < speed.min() < speed.max():
-            return []
+        speed = self.angular_speed.reshape(-1)
+        if self.system._kind != "chain" or speed.size == 0 or not 0 < speed.min() < speed.max():
+            return np.empty(0)
+        core = self.system._compiled
         ends = np.array([speed.min(), speed.max()])
         below = _core.count_modes_at_speed(core, ends, np.full(2, self.gravity))
         count = int(below[1] - below[0])
         if not 0 < count <= MOST_RESONANCES:
-            return []
+            return np.empty(0)
         found = _core.modes(core, int(below[0]) + 1, count, None, None, None, False, "double", "auto")
-        return list(np.sqrt(self.gravity / found.conical_height))
+        return np.asarray(np.sqrt(self.gravity / found.conical_height))
 
     def _sheet(self, brief: bool = False) -> Sheet:
         speed = self.angular_speed.reshape(-1)
@@ -296,43 +257,3 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
         words = ", ".join(f"{100 * share[k]:.3g} % in {what} {k + 1}" for k in most if share[k] > 0)
         many = f"{energy.size} {what}{'s' * (energy.size != 1)}"
         return f"{many}; of the energy {words}" if words else f"{many}, at rest"
-
-    def plot(self, ax: Axes | None = None, *, kind: str | None = None, pins: Iterable[int] = (0,)) -> Axes:
-        """Draw the system at the given times, the offsets of pins against time, or their paths seen from above.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw in; a new figure if left out.
-        kind : {"shapes", "time", "path"}, optional
-            ``"shapes"``: shapes from dark (early) to light (late), with enlarged offsets, at most nine; the usual one of a
-            swing in a plane. ``"time"``: offsets against time, with momentum those along y dashed. ``"path"``: paths seen
-            from above; the usual one, and only, with momentum.
-        pins : iterable of int
-            For ``"time"`` and ``"path"``: numbers of the pins, 0 for the free end; for a cord, indices in `arc_length`.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The drawing.
-
-        Raises
-        ------
-        ValueError
-            If `kind` is another word, or there is no such pin.
-        ImportError
-            If matplotlib is not installed; the message says how to install it.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> import revchain as rc
-        >>> chain = rc.Chain.uniform_plummets(10, length=1.0)
-        >>> plucked = np.interp(np.arange(11), [0, 5, 10], [0.0, 0.05, 0.0])
-        >>> ax = rc.swing(chain, np.linspace(0, 4, 300), offset=plucked).plot(kind="time", pins=[0, 5])
-        >>> ax.get_xlabel()
-        'time (s)'
-        """
-        from ..plots.response import plot_swing
-
-        return plot_swing(self, ax, kind, pins)

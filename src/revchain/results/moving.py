@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable
+from importlib import import_module
+from typing import Any
 
 
 class Moving:
@@ -70,9 +72,7 @@ class Moving:
         >>> path.stat().st_size < 1_000_000
         True
         """
-        from ..motion.write import write_film
-
-        write_film(
+        _motion().write_film(
             self,
             "animate",
             path,
@@ -121,9 +121,8 @@ class Moving:
         >>> rc.modes(rc.Chain.uniform_rods(12, length=1.0), 3).show()
         a motion, which notebooks show
         """
-        from ..motion.write import show_film
-
-        return show_film(self, figures, time_scale, duration, height)
+        shown: object = _motion().show_film(self, figures, time_scale, duration, height)
+        return shown
 
     def to_glb(
         self,
@@ -174,8 +173,11 @@ class Moving:
         >>> path.read_bytes()[:4]
         b'glTF'
         """
-        from ..motion.write import write_film
-
-        write_film(
+        _motion().write_film(
             self, "to_glb", path, figures=figures, time_scale=time_scale, duration=duration, progress=progress
         )
+
+
+def _motion() -> Any:
+    """The writers of films, imported when they are first needed."""
+    return import_module("revchain.motion.write")

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,8 +21,6 @@ from .sensitivity import Sensitivity
 from .shape_sensitivity import shape_sensitivity
 from .sheet import Column, Sheet, digits
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 TURN = 2 * math.pi
 FORCES = ("tension", "effective_energy", "lower_pull", "upper_pull")
@@ -491,35 +489,6 @@ class SteadyShape(Result, Moving, row="link", title="Steady shape of {_waves}{_a
         made = _core.transferred_to_axis(self._chain("transferred_to_axis"), self._found())
         return Chain._wrap(made, self.system.by_mass, self.system.names)
 
-    def plot(self, ax: Axes | None = None) -> Axes:
-        """Draw the shape, true to scale.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw in; a new figure if left out.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The drawing.
-
-        Raises
-        ------
-        ImportError
-            If matplotlib is not installed; the message says how to install it.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> ax = rc.steady_shapes(rc.Chain.uniform_plummets(3, length=1.0), conical_height=0.05)[0].plot()
-        >>> ax.get_xlabel()
-        'distance from axis (m)'
-        """
-        from ..plots.shapes import plot_shapes
-
-        return plot_shapes([self], ax)
-
     @property
     def _per(self) -> float:
         """Factor from the forces of the compiled shape to those of the result."""
@@ -711,37 +680,6 @@ class SteadyShapes(Results[SteadyShape], Moving, row="shape", title="{_heading}"
     )
     mode: Field[int | None] = Field("Number of the mode whose branch was searched; None if all shapes were.", fact=True)
     cells: Field[int] = Field("Number of parts of the range that were examined.")
-
-    def plot(self, ax: Axes | None = None) -> Axes:
-        """Draw all shapes in one picture, true to scale, coloured by half waves.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw in; a new figure if left out.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The drawing.
-
-        Raises
-        ------
-        ImportError
-            If matplotlib is not installed; the message says how to install it.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> ax = rc.steady_shapes(rc.Chain.uniform_plummets(3, length=1.0), conical_height=0.02).plot()
-        >>> ax.get_title()
-        '5 hanging shapes, proved complete'
-        """
-        from ..plots.shapes import plot_shapes
-
-        axes = plot_shapes(self, ax)
-        axes.set_title(self._how_many())
-        return axes
 
     def _how_many(self, at: str = "") -> str:
         shapes = f"shape{'s' * (len(self) != 1)}"

@@ -18,8 +18,8 @@ from ..systems.extras import require
 from ..systems.numbers import file_path
 from ..systems.system import System
 from ..systems.system import restored as system_from
-from .base import Result, restored
 from .files import hdf5_file, naming, written_aside
+from .kinds import KINDS, restored
 
 FORMAT = "revchain 2"
 HEADER = "revchain"  # name of the entry that describes the contents of a file
@@ -31,7 +31,7 @@ WRONG = (  # what the readers raise for a file that somebody else made and seale
 SEAL = b"revchain"  # at the end of a file, followed by the CRC-32 of all bytes before it
 
 
-def save(result: Result, path: str | os.PathLike[str]) -> None:
+def save(result: Any, path: str | os.PathLike[str]) -> None:
     """See `Result.save`."""
     ending = _ending(f"revchain.{type(result).__name__}.save", path)
     arrays: dict[str, np.ndarray[Any, Any]] = {}
@@ -121,12 +121,12 @@ def _arrays(file: IO[bytes], size: int) -> dict[str, np.ndarray[Any, Any]]:
     return arrays
 
 
-def _loaded(header: Any, arrays: Mapping[str, Any]) -> Result:
+def _loaded(header: Any, arrays: Mapping[str, Any]) -> Any:
     said = {} if header is None else json.loads(str(header))
     if said.get("format") != FORMAT:
         other = said.get("format", "an earlier one")
         raise ValueError(f"is a file of another version, {other}; compute and save the result again")
-    found: Result = _unpacked(said["result"], arrays, {})
+    found: Any = _unpacked(said["result"], arrays, {})
     return found
 
 
@@ -138,7 +138,7 @@ def _packed(value: Any, name: str, arrays: dict[str, Any], made: dict[int, str])
             return {"array": name}
         arrays[name] = np.stack([value.real, value.imag], axis=-1)  # netCDF has no complex numbers
         return {"complex": name}
-    if isinstance(value, Result):
+    if hasattr(value, "_fields") and hasattr(value, "_state"):
         state = {key: _packed(item, f"{name}.{key}", arrays, made) for key, item in value._state().items()}
         return {"result": type(value).__name__, "module": type(value).__module__, "state": state}
     if isinstance(value, System):
@@ -168,11 +168,11 @@ def _unpacked(value: Any, arrays: Mapping[str, Any], made: dict[str, Any]) -> An
         return number
     if "result" in value:
         state = {key: _unpacked(item, arrays, made) for key, item in value["state"].items()}
-        if value["result"] not in Result._kinds and str(value.get("module")).startswith("revchain.closed_forms."):
+        if value["result"] not in KINDS and str(value.get("module")).startswith("revchain.closed_forms."):
             import_module(value["module"])  # imported when they are first needed
-        if value["result"] not in Result._kinds:
+        if value["result"] not in KINDS:
             raise ValueError(f"holds a {value['result']}, which this version of revchain does not know")
-        return restored(Result._kinds[value["result"]], state)
+        return restored(KINDS[value["result"]], state)
     if "system" in value:
         made[value["name"]] = system_from(value["system"], _unpacked(value["state"], arrays, made))
         return made[value["name"]]

@@ -3,21 +3,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .drawing import Plot
 from .unchangeable import Unchangeable
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 
 class System(Unchangeable):
     """The base of `Chain`, `Rig`, `Cord` and `Held`."""
 
     __slots__ = ()
+    plot = Plot()
     by_mass: bool
     _kind: str  # "chain", "rig", "cord", "held chain" or "held cord": by this questions find what is for the system
     _kinds: ClassVar[dict[str, type[System]]] = {}
@@ -127,35 +126,6 @@ class System(Unchangeable):
 
     def _words(self) -> list[str]:
         raise NotImplementedError
-
-    def plot(self, ax: Axes | None = None) -> Axes:
-        """Draw the system at rest, true to scale along the axis.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Axes to draw in; a new figure if left out.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The drawing: pins, centres of gravity (larger dots are heavier) and names of up to 40 links. Inverted links
-            are thick, wheels are seen edge-on, bodies that float are hollow, and a cord is thicker where it is heavier.
-
-        Raises
-        ------
-        ImportError
-            If matplotlib is not installed; the message says how to install it.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> rc.Chain(mass=[1.0, 2.0], length=[0.5, 0.3]).plot().get_ylabel()
-        'depth below the support (m)'
-        """
-        from ..plots.modes import plot_system
-
-        return plot_system(self, ax)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the system as plain Python data, which `from_dict` reads.
