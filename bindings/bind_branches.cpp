@@ -42,12 +42,12 @@ const Chain& chain_of(const revchain::Rig& rig) { return rig.chain(); }
 /// The states and tangents of the points: tau of each link and log of the height, both twice.
 py::array points_of(const Branch& branch) {
     const auto& points = trace_of(branch).points;
-    const auto size = points.empty() ? 0 : static_cast<Index>(points.front().state.rise.size());
+    const auto size = points.empty() ? 0 : static_cast<Index>(points.front().state.tau.size());
     revchain::Table<double> table(static_cast<Index>(points.size()), 2 * size + 2);
     double* to = table.data();
     for (const BranchPoint& point : points)
         for (const BranchState* of : {&point.state, &point.tangent}) {
-            to = std::copy(of->rise.begin(), of->rise.end(), to);
+            to = std::copy(of->tau.begin(), of->tau.end(), to);
             *to++ = of->log_height;
         }
     return to_numpy(table);
@@ -83,7 +83,7 @@ Branch branch_from(const System& system, Index mode, const std::string& birth, c
     for (std::size_t i = 0; i < branch.size(); ++i) {
         BranchPoint point;
         for (BranchState* of : {&point.state, &point.tangent}) {
-            of->rise.assign(from, from + size);
+            of->tau.assign(from, from + size);
             of->log_height = from[size], from += size + 1;
         }
         point.arc = branch.arc[i], point.half_waves = branch.half_waves[i];
