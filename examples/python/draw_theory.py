@@ -291,11 +291,11 @@ def section_4():
     for k in range(3):
         start = 1.4 * k
         vertical(form, 1.04, -0.04, start)
-        form.plot(start + 0.5 * found.offset(s)[k], s, color=COLOURS[k], lw=2)
+        form.plot(start + 0.5 * found.along(s)[k], s, color=COLOURS[k], lw=2)
         nodes, up = found.nodes[k], found.vertical_points[k]
         form.plot(np.full(len(nodes), start), nodes, "o", color=COLOURS[k], ms=6)
         if len(up):
-            form.plot(start + 0.5 * found.offset(up)[k], up, "s", color=COLOURS[k], mfc="w", ms=6)
+            form.plot(start + 0.5 * found.along(up)[k], up, "s", color=COLOURS[k], mfc="w", ms=6)
         form.text(start, 1.08, f"mode {k + 1}", color=COLOURS[k], ha="center")
     form.set(ylabel="from the free end, $s/L$", xticks=[], xlim=(-0.6, 3.5), ylim=(-0.05, 1.17), title="modes of the uniform chain")
     form.spines["bottom"].set_visible(False)

@@ -403,7 +403,7 @@ def check_places(worst, d, modes, exact, allowed):
     """Offset and slope of one mode against `exact` at shares of the length, of the largest of either."""
     length = modes.system.length
     grid = length * np.linspace(0, 1, 400)
-    largest, steepest = (max(1.0 * first, np.abs(f(grid)).max()) for f, first in ((modes.offset, 1), (modes.slope, 0)))
+    largest, steepest = (max(1.0 * first, np.abs(f(grid)).max()) for f, first in ((modes.along, 1), (modes.slope, 0)))
     for share in places(d):
         offset, slope = exact(mp.mpf(share * length) / mp.mpf(length))
         worst.note("offset", off(modes.along(share * length)[0], offset) / mp.mpf(largest) / allowed)

@@ -114,7 +114,7 @@ def test_json(run):
     assert data["title"] == "Watch chain" and data["status"] == "success" and data["gravity"] == 9.80665
     result = rc.load_scene("watch.toml").modes()
     for k, mode in enumerate(data["modes"]):
-        assert list(mode)[:5] == ["mode", "angular_speed", "frequency", "rpm", "period"] and "shape" not in mode
+        assert list(mode)[:5] == ["mode", "direction", "angular_speed", "frequency", "rpm"] and "shape" not in mode
         assert mode["mode"] == k + 1
         assert mode["conical_height"] == result.conical_height[k]
         assert mode["angular_speed"] == result.angular_speed[k]

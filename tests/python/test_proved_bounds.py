@@ -162,7 +162,7 @@ def test_swing(by, wheels):
         tally.systems += 1
         number = (lambda x: mp.mpc(complex(x))) if wheels else (lambda x: mp.mpf(float(x)))
         given = (*([number(x) for x in row[:moving]] for row in start), [mp.mpf(t) for t in times])
-        truth = pencil.whirled(*given, found.angular_speed) if wheels else pencil.swung(*given)
+        truth = pencil.whirled(*given, found.angular_frequency) if wheels else pencil.swung(*given)
         for j, offsets in enumerate(truth):
             for pin, y in enumerate(offsets):
                 bound = float(found.error_bound[j] + found.truncation_error[pin])

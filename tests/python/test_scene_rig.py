@@ -54,7 +54,7 @@ def test_modes_of_a_scene_are_those_of_its_rig():
     support = {"stiffness": 50.0, "mass": 0.2}
     given = scene({**ROD, "flywheel": WHEEL, "repeat": 30}, support=support, ask={"modes": {"count": 4, "first": 2}})
     found = given.modes()
-    assert isinstance(found, rc.RigModes)
+    assert isinstance(found, rc.Modes)
     same = rc.modes(given.system(), count=4, first=2, gravity=G)
     assert np.array_equal(found.conical_height, same.conical_height)
     assert list(np.sort(found.number)) == [2, 2, 3, 3, 4, 4, 5, 5] and found.direction.sum() == 0

@@ -44,7 +44,7 @@ def near_the_vertical(turns):
 def continuous(turns):
     """The same without links: the lowest part of a longer chain that whirls freely."""
     longer = rc.conical_pendulum.height(2 * np.pi * turns) / eighth.conical_height[0]
-    return 1 / eighth.offset(LENGTH / longer)[0]
+    return 1 / eighth.along(LENGTH / longer)[0]
 
 
 def at_any_inclination(turns):

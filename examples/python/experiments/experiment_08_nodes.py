@@ -17,7 +17,7 @@ links = rc.modes(rc.Chain.uniform_rods(400, length=LENGTH), count=4)
 cord = rc.modes(rc.Cord(LENGTH), count=4)
 x = np.linspace(0, LENGTH, 400)
 figure, axes = picture()
-whirling(axes, cord.offset(x)[2], LENGTH - x, color=COLOURS[2])
+whirling(axes, cord.along(x)[2], LENGTH - x, color=COLOURS[2])
 axes.plot(0 * cord.nodes[2], LENGTH - cord.nodes[2], "o", color="black", markersize=9)
 axes.set(xlabel="offset, that of the free end = 1", ylabel="depth (m)", ylim=(1.04, -0.03))
 plt.show()
@@ -45,9 +45,9 @@ print("                                vertical points", *(cord.vertical_points[
 figure, axes = panels(4)
 for k, panel in enumerate(axes):
     nodes, vertical = cord.nodes[k], cord.vertical_points[k]
-    hang(panel, 0.15 * cord.offset(x)[k], LENGTH - x, color=COLOURS[k])
+    hang(panel, 0.15 * cord.along(x)[k], LENGTH - x, color=COLOURS[k])
     panel.plot(0 * nodes, LENGTH - nodes, "o", color="black", markersize=4)
-    panel.plot(0.15 * cord.offset(vertical)[k], LENGTH - vertical, "|", color="black", markersize=16)
+    panel.plot(0.15 * cord.along(vertical)[k], LENGTH - vertical, "|", color="black", markersize=16)
     for node in nodes:
         panel.annotate(f"{1000 * node:.0f}", (0, LENGTH - node), xytext=(7, -3), textcoords="offset points")
     side_view(panel, f"mode {k + 1}\n{cord.frequency[k]:.2f} turns/s", bottom=1.04, top=0.04, half_width=0.2)

@@ -209,9 +209,12 @@ class Uncertainty(Result, row="mode", title="Standard deviations"):
     )
     largest: Field[tuple[tuple[str, int], ...]] = Field(
         "For each mode the datum that contributes most, and its link, counted from 0 (0 for a datum that is not of a link).",
-        axes=(),
+    )
+    _largest_part: Field[list[str]] = Field(
+        "`largest` in words.",
+        lambda u: [u._most(row) for row in range(len(u.largest))],
         heading="largest part from",
-        shown=lambda u: [u._most(row) for row in range(len(u.largest))],
+        column="largest",
     )
     names: Field[tuple[str, ...] | None] = Field("Names of the links; None if no names were given.")
 

@@ -56,7 +56,7 @@ class Column(NamedTuple):
         values = self.values if self.shown is None else self.shown
         if isinstance(values, np.ndarray) and values.ndim == 1:
             values = values.tolist()
-        numbers = ".1e" if self.name.endswith(("error_bound", "error_estimate")) else f"#.{self.digits}g"
+        numbers = ".1e" if self.name.endswith("error_bound") else f"#.{self.digits}g"
         found: list[str] = []
         for row in rows:
             value = values[row]

@@ -159,7 +159,7 @@ def answers(scene: Scene, find: Sequence[str]) -> tuple[dict[str, Any], bool]:
         found["half_waves"] = [s.half_waves for s in shapes]
         for name, field in zip(_SHAPE, ("inclination", "inclination", "offset", "tension"), strict=True):
             found[name] = [getattr(s, field)[-1 if name.startswith("top") else 0] for s in shapes]
-        found[f"shape_{_accuracy(scene)}"] = [getattr(s, _accuracy(scene)) for s in shapes]
+        found["shape_error_bound"] = [s.error_bound for s in shapes]
         proved = proved and bool(shapes.complete)
     if "response" in find:
         moved = scene.response()
@@ -168,11 +168,6 @@ def answers(scene: Scene, find: Sequence[str]) -> tuple[dict[str, Any], bool]:
         found |= dict(zip(_RESPONSE, numbers, strict=True)) | {"response_error_bound": moved.error_bound}
         proved = proved and bool(np.isfinite(moved.error_bound).all())
     return found, proved
-
-
-def _accuracy(scene: Scene) -> str:
-    """The field of a shape that has the size of its error."""
-    return "error_bound" if scene.cord is UNSET else "error_estimate"
 
 
 def asked_of(scene: Scene, wanted: Sequence[str] | UnsetType, numbers: Numbers) -> tuple[str, ...]:
@@ -211,7 +206,7 @@ def blocks_of(scene: Scene, largest: Scene, find: tuple[str, ...], max_shapes: i
     if "shapes" in find:
         labels = tuple(range(1, max_shapes + 1))
         blocks += [Block("shapes", "i8"), Block("shapes_complete", "?"), Block("half_waves", "i8", "shape", labels)]
-        blocks += [Block(name, "f8", "shape", labels) for name in (*_SHAPE, *[f"shape_{_accuracy(scene)}"] * bounds)]
+        blocks += [Block(name, "f8", "shape", labels) for name in (*_SHAPE, *["shape_error_bound"] * bounds)]
     if "response" in find:
         count = _speeds_of(scene.ask.response)
         names = [*_RESPONSE, *["response_error_bound"] * bounds]
