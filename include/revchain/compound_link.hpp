@@ -70,8 +70,8 @@ template <Real T>
 struct SwungLink {
     T inclination;  ///< to the vertical, 0 ... pi/2
     T reaction;     ///< force at the axle over the weight
-    /// of the line of that force to the vertical; it meets the vertical through the centre of
-    /// gravity at E, at the level of the centre of oscillation L
+    /// Inclination of that force to the vertical. Its line meets the vertical through the centre of
+    /// gravity at the level of the centre of oscillation.
     T reaction_inclination;
     T condition;  ///< relative change of inclination per relative change of data; 0 if vertical
 };

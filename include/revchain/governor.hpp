@@ -46,7 +46,8 @@ struct GovernorState {
     double angle, angle_rate;
 };
 
-/// The motion theta'' = n^2 sin theta cos theta - (g/l) sin theta, as a function of time.
+/// The motion theta'' = n^2 (1 - `axial_inertia`) sin theta cos theta - (g/l) sin theta, as a
+/// function of time.
 ///
 /// Method: with tau = tan(theta/2), 4 tau'^2 = e + 2 b tau^2 + f tau^4, where e and f are the
 /// squares of theta' at the bottom and at the top. kappa and kappa' follow from e, f and b without

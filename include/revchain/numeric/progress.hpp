@@ -26,7 +26,8 @@ namespace detail {
 /// A function that a program may set before it computes. Every loop that can take longer than 0.1 s
 /// calls it at least every 0.1 s, on its own thread. An exception from it ends the computation.
 inline std::atomic<void (*)()> interrupt = nullptr;
-/// True once the result of this thread is no longer needed; null if that cannot happen.
+/// Points to a flag that is true once the result of this thread is no longer needed; null if that
+/// cannot happen.
 inline thread_local const std::atomic<bool>* abandoned = nullptr;
 /// Calls `interrupt`. Throws Cancelled on a thread that has been abandoned.
 inline void check_interrupt() {

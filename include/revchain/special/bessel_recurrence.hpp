@@ -101,11 +101,11 @@ struct Cylinders {
             here = below;
         }
         const TwoDoubles scale = TwoDoubles(1.0) / (here + sum * 2.0);
-        const TwoDoubles over_pi = TwoDoubles(2.0) / two_word_pi;
+        const TwoDoubles two_over_pi = TwoDoubles(2.0) / two_word_pi;
         J0 = here * scale, J1 = J1 * scale, J2 = J2 * scale;
         const TwoDoubles log = logarithm(ldexp(z, -1)) + euler;
-        Y0 = over_pi * (log * J0 - sum0 * scale * 2.0);
-        Y1 = over_pi * (log * J1 - J0 / z + sum1 * scale);
+        Y0 = two_over_pi * (log * J0 - sum0 * scale * 2.0);
+        Y1 = two_over_pi * (log * J1 - J0 / z + sum1 * scale);
         Y2 = step * Y1 - Y0;
     }
 };

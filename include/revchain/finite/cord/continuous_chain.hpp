@@ -8,10 +8,13 @@
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/system/cord.hpp"
 
-/// Steady shapes of a whirling cord of any density, with or without a weight at its free end, at
-/// any inclination: Greenhill (1908) §4 without small angles. A path is followed up from the free
-/// end. The offset eta_0 of that end is the one unknown. A shape of j half waves is a path whose
-/// crossing j, at s_j(eta_0), is the support (equations at `finite::PathState`). Properties of s_j:
+/// Finds all steady shapes of a whirling cord at a speed, its critical heights and its modes of
+/// small amplitude; the density is any, with or without a weight at the free end: Greenhill (1908)
+/// §4 without small angles. In what follows V is the weight below a place, T the tension, rho the
+/// weight per length, u the pull across the axis, tip the length of cord as heavy as the tip, and a
+/// prime the derivative by V. A path is followed up from the free end. The offset eta_0 of that end
+/// is the one unknown. A shape of j half waves is a path whose crossing j, at s_j(eta_0), is the
+/// support (equations at `finite::PathState`). Properties of s_j:
 ///   - s_j(eta_0) > s_j(0), the value at small amplitude, by Sturm's comparison: as a function of V
 ///     the pull satisfies u'' = -u/(rho T), u'(tip) = u(tip)/tip, and T > V. So no shape has j half
 ///     waves at or above the conical height lambda_j of small amplitude.
@@ -22,8 +25,9 @@
 ///     node.
 ///   - Every s_j increases if h = sqrt(rho/V) is a convex function of V. Then there is one shape
 ///     for every critical height above lambda. This holds for a uniform chain with any tip weight.
-///     It holds for densities s^p without a tip weight for p > -1, with one for p <= 0.
-///     Proof (' by V). Let w = eta_0 v, which starts as u does. By u'' = -u/(rho T) and w'' = -q w,
+///     It holds for densities s^p without a tip weight for p > -1, and with a tip weight for p <=
+///     0.
+///     Proof. Let w = eta_0 v, which starts as u does. By u'' = -u/(rho T) and w'' = -q w,
 ///     q = V^2/(rho T^3) <= 1/(rho T), the phase of w, tan theta = w/w', lags that of u (Sturm). E
 ///     = V u' - u is 0 at the free end. E' = -V u/(rho T) and E'' + (ln(rho/V))' E' + q E = 0, so y
 ///     = h E satisfies y'' = -(q - h''/h) y with h'' >= 0. Hence w has a zero between the free end

@@ -6,7 +6,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// Shapes with a given number on a branch of a cord, in the order of the arc.
+/// Shapes with a given quantity (a height, tip inclination, tip radius or top tension) on a branch
+/// of a cord, in order along the branch.
 struct CordShapesOnBranch {
     std::vector<CordShape> shapes;
     BranchEnd end = BranchEnd::height;  ///< why the search ended; `budget`: after 100,000 points
@@ -60,7 +61,7 @@ class WantedOnLine {
                          weight = chain.line_weight * (chain.length + chain.tip);
             if (!(tension > weight) || !std::isfinite(tension))
                 throw_invalid(place,
-                              "top tension must be finite and more than the weight of the cord",
+                              "top tension must be finite and more than the weight of cord and tip",
                               tension);
             kind_ = Kind::top_tension, wanted_ = std::sqrt((tension - weight) * (tension + weight));
         }

@@ -176,7 +176,7 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
     result.negative_directions = signs.negative;
     if (signs.is_minimum)
         result.verdict = Verdict::minimum;
-    else if (by_squares == Verdict::unstable || signs.is_certain)
+    else if (by_squares == Verdict::unstable || signs.is_certainly_negative)
         result.verdict = by_squares;
     return judgement;
 }

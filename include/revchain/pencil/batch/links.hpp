@@ -3,12 +3,15 @@
 
 #include "revchain/pencil/batch/block.hpp"
 
+/// The equations of small amplitude, link by link from the free end to the support, for many chains
+/// at once, one in each lane: `PlummetLanes` for point masses, `RigidLanes` for bodies. The unknown
+/// `x` is mu = 1/lambda; the zeros of the support's offset as a polynomial in it are the modes.
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// Plummets. F is the force above each pin and y the pin's offset, for a free end at offset 1. With
 /// mu = 1/lambda they follow from
 ///
-///     F <- F - mu W y,      y <- y + F / k,      k = (weight hung above the pin's thread) / a.
+///     F <- F - mu W y,      y <- y + F / k,      k = (weight hung on the thread above) / a.
 ///
 /// y at the support is a polynomial in mu whose zeros are the modes; other sums have one sign.
 template <class V>
@@ -99,8 +102,9 @@ class PlummetLanes : public detail::LaneNumbers<V, 3> {
 ///
 ///     d = (F - mu W p y) / (k + mu X),     F <- F - mu W y_G,     X = W (p q - r).
 ///
-/// Multiplied by (k + mu X)/k for each link, y is a polynomial in mu without divisions. Its sign
-/// changes are the negative pivots of K - mu M, also if k + mu X < 0.
+/// Multiplied by (k + mu X)/k for each link, y is a polynomial in mu without divisions. The number
+/// of sign changes of y along the chain is that of negative pivots of K - mu M, also if k + mu X <
+/// 0.
 template <class V>
 class RigidLanes : public detail::LaneNumbers<V, 12> {
     using Numbers = detail::LaneNumbers<V, 12>;
