@@ -13,12 +13,12 @@ from typing import Any
 
 
 class OutputError(OSError, ValueError):
-    """A file that cannot be written, or read; an OSError that is also a ValueError."""
+    """The error of a file that cannot be written or read; an OSError that is also a ValueError."""
 
 
 @contextmanager
 def naming(path: str | os.PathLike[str]) -> Iterator[None]:
-    """Turn an OSError of any library into one that names the file, not the temporary one."""
+    """Turn an OSError of any library into one that names the path asked for, not a temporary file."""
     try:
         yield
     except OutputError:
@@ -65,7 +65,7 @@ def hdf5_file(path: str | os.PathLike[str], mode: str = "w+") -> Iterator[FileIO
 def written_aside(*paths: str | os.PathLike[str]) -> Iterator[list[Path]]:
     """Yield an empty temporary file beside each path, with the same ending; rename all of them at the end.
 
-    If anything fails, all are removed and existing files stay. A path that cannot be written raises an
+    If anything fails before the renaming, all are removed and existing files stay. A path that cannot be written raises an
     error at once. Devices and pipes are written directly.
     """
     finals = [Path(os.path.realpath(path)) for path in paths]

@@ -79,7 +79,7 @@ class Numbers:
         return math.nan
 
     def read(self, table: Table) -> Given:
-        """All numbers given in the table, by key; as `heavy`, `tip_heavy` and `added_heavy` its masses or weights."""
+        """All numbers given in the table, by key; masses or weights are under the keys `heavy`, `tip_heavy` and `added_heavy`."""
         found: Given = {}
         for name, sign, required in number_fields(type(table)):
             given = getattr(table, name)
@@ -108,7 +108,7 @@ class Numbers:
 
 
 def whole(name: str, table: UniformChain | TaperedChain | CordTable, numbers: Numbers) -> Chain | Cord | None:
-    """The chain or cord of the table of that name; None if something in it is wrong, which is noted already."""
+    """The chain or cord of the table of that name; None if parsing has already reported a wrong value."""
     numbers = numbers.of(name)
     found = numbers.read(table)
     numbers.done()

@@ -141,7 +141,7 @@ class Plan:
 
 
 def answers(scene: Scene, find: Sequence[str]) -> tuple[dict[str, Any], bool]:
-    """The results of one scene, by the names of the blocks, and whether all of them are proved."""
+    """The results of one scene, by the names of the blocks, and whether all are complete and within their tolerance."""
     found: dict[str, Any] = {}
     proved = True
     if "modes" in find:

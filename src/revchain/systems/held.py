@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Chains and cords whose two ends are held on the axis: troposkien blades, skipping ropes, strings of weights."""
+"""Chains and cords held at both ends, on the axis, on arms or on springs: troposkien blades, skipping ropes."""
 
 from __future__ import annotations
 
@@ -173,7 +173,7 @@ class Held(System):
         return 1.0 if self.weightless else self.system._force(gravity)
 
     def _force_in_shape(self, gravity: float, conical_height: float, angular_speed: float) -> float:
-        """The same; the forces of compiled shapes are multiplied by the conical height."""
+        """Factor that turns a force of a compiled shape, which is times the conical height, into a force of the results."""
         return angular_speed**2 if self.weightless else self._force(gravity) / conical_height
 
     def _pull(self, gravity: float) -> tuple[float, float] | None:

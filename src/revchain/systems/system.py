@@ -18,7 +18,7 @@ class System(Unchangeable):
     __slots__ = ()
     plot = Plot()
     by_mass: bool
-    _kind: str  # "chain", "rig", "cord", "held chain" or "held cord": by this questions find what is for the system
+    _kind: str  # "chain", "rig", "cord", "held chain" or "held cord": questions choose their method by it
     _kinds: ClassVar[dict[str, type[System]]] = {}
 
     def __init_subclass__(cls, **given: Any) -> None:
@@ -89,7 +89,7 @@ class System(Unchangeable):
         return None
 
     def _modes_again(self, modes: Any) -> Any:
-        """The compiled modes with the numbers of modes that were loaded."""
+        """The compiled modes of a loaded result, computed once more by their numbers."""
         raise NotImplementedError
 
     def _force_in_shape(self, gravity: float, conical_height: float, angular_speed: float) -> float:
@@ -202,7 +202,7 @@ class System(Unchangeable):
 
 
 def restored(kind: str, state: Any) -> System:
-    """The system of a kind from its state."""
+    """Rebuild a pickled system."""
     return System._kinds[kind]._from_state(state)
 
 

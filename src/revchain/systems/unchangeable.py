@@ -5,7 +5,7 @@ from __future__ import annotations
 
 
 class Unchangeable:
-    """For classes whose attributes are set once, by `object.__setattr__`."""
+    """A base class that refuses to set or delete attributes; constructors set them by `object.__setattr__`."""
 
     __slots__ = ()
 
