@@ -73,8 +73,7 @@ Branch branch_from(const System& system, Index mode, const std::string& birth, c
         BranchRoot root =
             BranchRoot::of("Branch", system, turning(Options{.mode = mode, .gravity = gravity}, direction));
         trace.system = root.system;
-        if (root.onset)
-            trace.onset = std::make_shared<const revchain::finite::BranchOnset>(std::move(*root.onset));
+        if (root.onset) trace.onset = std::make_shared<const revchain::finite::BranchOnset>(std::move(*root.onset));
     }
     if (points.ndim() != 2 || points.shape(0) != arc.size())
         revchain::detail::throw_invalid("Branch", "this is not the state of a branch");

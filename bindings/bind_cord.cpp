@@ -5,8 +5,10 @@
 #include <variant>
 
 #include "bindings.hpp"
+#include "forces.hpp"
 #include "interrupt.hpp"
 #include "revchain/cord.hpp"
+#include "revchain/held.hpp"
 #include "shapes.hpp"
 
 #include <pybind11/functional.h>
@@ -15,6 +17,7 @@ namespace {
 
 using revchain::Cord;
 using revchain::CordShape;
+using HeldCord = revchain::Held<Cord>;
 using revchain::Index;
 using revchain::LineDensity;
 using revchain::Vector;
@@ -112,11 +115,16 @@ void bind_cord(py::module_& module) {
                     arc);
             },
             "arc"_a);
+    py::class_<HeldCord>(module, "HeldCord", "A cord held at both ends; immutable.")
+        .def(py::init([](const Cord& cord, std::optional<double> span, const Tension& pull, bool weightless) {
+                 return HeldCord(cord, {.span = span, .tension = tension(pull), .weightless = weightless});
+             }),
+             "cord"_a, "span"_a, "tension"_a, "weightless"_a);
     module.def("blank_shape", &blank_shape, "system"_a);
     bind_shapes<revchain::CordShapes>(module, "CordShapes");
     def_steady_shapes<Cord>(module, [](const Cord& cord, const AtSpeed& at) {
-        return revchain::steady_shapes(
-            cord, {.conical_height = *at.conical_height, .scanned = static_cast<int>(at.budget)});
+        return revchain::steady_shapes(cord,
+                                       {.conical_height = *at.conical_height, .scanned = static_cast<int>(at.budget)});
     });
     def_stability<Cord, CordShape>(
         module, [](const Cord& cord, const CordShape& shape, revchain::StabilityFrame in, int, double) {

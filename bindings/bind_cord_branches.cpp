@@ -21,8 +21,7 @@ py::array line_points(const CordBranch& branch) {
     revchain::Table<double> table(static_cast<Index>(branch.points.size()), 6);
     double* to = table.data();
     for (const Point& p : branch.points)
-        for (const double x :
-             {p.at.bend, p.at.log_height, p.direction.bend, p.direction.log_height, p.rate, p.off})
+        for (const double x : {p.at.bend, p.at.log_height, p.direction.bend, p.direction.log_height, p.rate, p.off})
             *to++ = x;
     return to_numpy(table);
 }

@@ -92,11 +92,6 @@ void bind_cord_modes(py::module_& module) {
         .def("slope", &along<&CordModes::slope>, "arc_length"_a)
         .def_property_readonly("nodes", &of_modes<&CordModes::nodes>)
         .def_property_readonly("vertical_points", &of_modes<&CordModes::vertical_points>);
-    py::class_<HeldCord>(module, "HeldCord", "A cord held at both ends; immutable.")
-        .def(py::init([](const Cord& cord, std::optional<double> span, const Tension& pull, bool weightless) {
-                 return HeldCord(cord, {.span = span, .tension = tension(pull), .weightless = weightless});
-             }),
-             "cord"_a, "span"_a, "tension"_a, "weightless"_a);
     module.def("cord_modes", &modes<Cord>, "cord"_a, "first"_a, "count"_a, "conical_height"_a, "angular_speed"_a,
                "rtol"_a, "progress"_a = py::none(), "gravity"_a = revchain::conical_pendulum::standard_gravity);
     module.def("held_modes", &modes<HeldCord>, "held"_a, "first"_a, "count"_a, "conical_height"_a, "angular_speed"_a,

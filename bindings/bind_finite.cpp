@@ -21,8 +21,10 @@ void bind_finite(py::module_& module) {
     def_column(shape, "reaction_inclination", &SteadyShape::reaction_inclination);
     shape.def_readwrite("moment_of_inertia", &SteadyShape::moment_of_inertia)
         .def_readwrite("effective_energy", &SteadyShape::effective_energy);
-    module.def("blank_shape", [](const Chain&) { return SteadyShape{}; }, "system"_a);
-    module.def("blank_shape", [](const Rig&) { return SteadyShape{}; }, "system"_a);
+    module.def(
+        "blank_shape", [](const Chain&) { return SteadyShape{}; }, "system"_a);
+    module.def(
+        "blank_shape", [](const Rig&) { return SteadyShape{}; }, "system"_a);
     bind_shapes<revchain::SteadyShapes>(module, "SteadyShapes");
     using revchain::Stability;
     const auto each = []<class T>(std::vector<T> Stability::*member) {

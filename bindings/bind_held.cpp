@@ -45,10 +45,10 @@ auto branch_of(const System& held, Index mode, double height, double max_step) {
         modes += (modes.empty() ? "" : ", ") + std::to_string(each.mode);
     }
     const auto& by = held.by();
-    const std::string which = by.lower.radius == 0 && by.upper.radius == 0
-                                  ? "from 1 to " + std::to_string(found.size()) + ", the branches at the greatest speed"
-                                  : "that of a branch at the greatest speed, here one of " +
-                                        (modes.empty() ? "none" : modes);
+    const std::string which =
+        by.lower.radius == 0 && by.upper.radius == 0
+            ? "from 1 to " + std::to_string(found.size()) + ", the branches at the greatest speed"
+            : "that of a branch at the greatest speed, here one of " + (modes.empty() ? "none" : modes);
     revchain::detail::throw_invalid("branch", "mode must be " + which, mode);
 }
 
@@ -77,8 +77,8 @@ void def_held_branches(py::module_& module, const char* branch, const char* list
         },
         "system"_a, "height"_a, "lists"_a, "budget"_a, "proof_budget"_a, "gravity"_a, "direction"_a);
     def_on_branch<System>(module, "steady_shape",
-                          [](const System& held, Index mode, const std::string& name, double value, double gravity,
-                             int, std::optional<double>) {
+                          [](const System& held, Index mode, const std::string& name, double value, double gravity, int,
+                             std::optional<double>) {
                               const revchain::HeldOnBranchOptions options{.mode = static_cast<int>(mode),
                                                                           .gravity = gravity};
                               return revchain::steady_shape(held, selected(options, name, value));
@@ -135,7 +135,8 @@ void bind_held(py::module_& module) {
                     arc);
             },
             "arc"_a);
-    module.def("blank_shape", [](const HeldChain&) { return HeldShape{}; }, "system"_a);
+    module.def(
+        "blank_shape", [](const HeldChain&) { return HeldShape{}; }, "system"_a);
     module.def(
         "blank_shape",
         [](const HeldCord& held) {

@@ -13,8 +13,8 @@ using revchain::Index;
 /// (name, reason or None, error bound, cost) of each model, the number chosen, whether it keeps the tolerance.
 py::tuple selected(const Chain& chain, Index first, Index count, double rtol, double inclination,
                    std::optional<double> time_budget) {
-    const auto choice =
-        revchain::models::select(revchain::models::height_models, chain, {first, count, rtol, inclination}, time_budget);
+    const auto choice = revchain::models::select(revchain::models::height_models, chain,
+                                                 {first, count, rtol, inclination}, time_budget);
     py::list rows;
     for (const revchain::Estimate& estimate : choice.estimates)
         rows.append(py::make_tuple(estimate.name,
@@ -43,7 +43,8 @@ py::tuple solved_best(const Chain& chain, Index first, Index count, double rtol,
 py::tuple solved_by(const Chain& chain, Index first, Index count, double rtol, double inclination,
                     const std::string& model) {
     return answered(aside(chain, nullptr, [=](const Chain& own) {
-        return revchain::models::solve_by(revchain::models::height_models, model, own, {first, count, rtol, inclination});
+        return revchain::models::solve_by(revchain::models::height_models, model, own,
+                                          {first, count, rtol, inclination});
     }));
 }
 

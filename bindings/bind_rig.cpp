@@ -32,9 +32,8 @@ Rig make_rig(const Chain<double>& chain, double stiffness, double carriage_weigh
              const std::optional<Array>& driven, const std::optional<Array>& displaced_weight,
              const std::optional<Array>& displaced_centroid, const std::optional<Array>& displaced_radius_of_gyration,
              const std::optional<Array>& added_weight, bool turning_fluid, double force, double gravity) {
-    for (const auto* array :
-         {&momentum, &axial_moment, &wheel_weight, &wheel_radius_of_gyration, &spin, &driven, &displaced_weight,
-          &displaced_centroid, &displaced_radius_of_gyration, &added_weight})
+    for (const auto* array : {&momentum, &axial_moment, &wheel_weight, &wheel_radius_of_gyration, &spin, &driven,
+                              &displaced_weight, &displaced_centroid, &displaced_radius_of_gyration, &added_weight})
         if (*array && (*array)->ndim() > 0 && (*array)->size() != chain.size())
             revchain::detail::throw_invalid("Rig", "arrays must have one number for each link", (*array)->size());
     if (standing && standing->size() != chain.size())

@@ -82,8 +82,8 @@ void def_steady_shapes(py::module_& module, Find find) {
                double gravity, int direction, bool hanging_only, int max_half_waves, bool prove, long budget,
                revchain::Index threads) {
             const py::gil_scoped_release release;
-            return find(system, AtSpeed{conical_height, angular_speed, gravity, direction, hanging_only,
-                                        max_half_waves, prove, budget, threads});
+            return find(system, AtSpeed{conical_height, angular_speed, gravity, direction, hanging_only, max_half_waves,
+                                        prove, budget, threads});
         },
         "system"_a, "conical_height"_a, "angular_speed"_a, "gravity"_a, "direction"_a, "hanging_only"_a,
         "max_half_waves"_a, "prove"_a, "budget"_a, "threads"_a);
@@ -162,11 +162,11 @@ void bind_diagram(py::module_& module, const char* name) {
         .def_readonly("branches", &Branches::branches)
         .def_readonly("consistent", &Branches::consistent)
         .def_readonly("complete", &Branches::complete)
-        .def_property_readonly("looked_at",
-                               [](const Branches& b) {
-                                   return frozen(py::array_t<double>(static_cast<py::ssize_t>(b.looked_at.size()),
-                                                                     b.looked_at.data()));
-                               })
+        .def_property_readonly(
+            "looked_at",
+            [](const Branches& b) {
+                return frozen(py::array_t<double>(static_cast<py::ssize_t>(b.looked_at.size()), b.looked_at.data()));
+            })
         .def_readonly("remark", &Branches::remark);
 }
 

@@ -517,7 +517,7 @@ def test_modes_of_cords_by_power_series():
         assert found.method == "power series" != closed.method
         where, x = (length, tip, p), length * np.linspace(0, 1, 101)
         worst.note("heights", np.abs(found.conical_height / closed.conical_height - 1).max() / 4e-15, where)
-        for name in ("offset", "slope"):
+        for name in ("along", "slope"):
             values, exact = getattr(found, name)(x), getattr(closed, name)(x)
             worst.note(name, (np.abs(values - exact).max(axis=1) / np.abs(exact).max(axis=1)).max() / 1e-14, where)
         for name in ("nodes", "vertical_points"):

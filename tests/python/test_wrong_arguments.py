@@ -132,7 +132,7 @@ MODULES = [rc, *(one for one in FILES if hasattr(one, "__all__"))]
 
 def objects():
     """Something of every class that has methods with parameters."""
-    found = [CHAIN, RIG, rc.modes(CHAIN), rc.modes(RIG), rc.explain(CHAIN), rc.bell_and_clapper(CHAIN)]
+    found = [CHAIN, RIG, rc.modes(RIG), rc.modes(CHAIN), rc.explain(CHAIN), rc.bell_and_clapper(CHAIN)]
     found += [rc.modes(RIG).uncertainty(weight=0.1), rc.modes(CHAIN).uncertainty(weight=0.1), rc.modes(CHAIN).sensitivity, rc.modes(RIG).sensitivity]
     found += [CORD, HELD, rc.modes(CORD)]
     shapes = rc.steady_shapes(CHAIN, conical_height=0.4)
