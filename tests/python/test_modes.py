@@ -3,6 +3,7 @@
 
 import json
 import math
+import sys
 import threading
 import time
 
@@ -360,3 +361,24 @@ def test_a_height_that_is_not_positive_is_shown():
     result = restored(rc.Modes, {**result._state(), "conical_height": np.array([1.5, -1e-17])})
     for text in (repr(result), result._repr_html_()):
         assert "-1.00000000e-17" in text and "nan" in text and "1.5" in text
+
+
+def test_a_printed_table_takes_few_calls():
+    result, calls = rc.modes(rc.Chain(weight=[1.0, 3.0], length=1.0)), []
+    sys.setprofile(lambda frame, event, _: calls.append(frame.f_code.co_qualname) if event == "call" else None)
+    try:
+        text = repr(result)
+    finally:
+        sys.setprofile(None)
+    assert text.startswith("2 of 2 modes") and len(calls) <= 60, calls
+
+
+def test_rows():
+    result = rc.modes(rc.Chain(weight=[1.0, 3.0], length=1.0))
+    assert [row.number for row in result] == [1, 2] and result[-1].conical_height == result.conical_height[1]
+    assert result[1].nodes.tolist() == [0.5] and np.array_equal(result[0].shape, result.shape[0])
+    assert repr(result[0]).startswith("mode 1, speed (rad/s) 2.55691") and "frequency" in dir(result[0])
+    with pytest.raises(AttributeError, match="has no gravity"):
+        _ = result[0].gravity
+    with pytest.raises(IndexError, match="index must be from -2 to 1, got 2"):
+        _ = result[2]

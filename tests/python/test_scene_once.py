@@ -98,7 +98,6 @@ def test_few_calls_for_one_question(watch_chain):
     assert calls.total() <= 600 and own <= 115, calls.most_common(30)
 
 
-@pytest.mark.xfail(strict=True, reason="tables read each field through `Field.__get__`: 113 changes of file")
 def test_few_changes_of_file_for_one_question(watch_chain):
     _, changes = watch_chain
     assert changes.total() <= 120, changes.most_common(30)

@@ -68,6 +68,8 @@ class Straight:
 
     def beside(self) -> Floats:
         """Half the width of each link: of its flywheel."""
+        if not self.system.has_momentum:
+            return np.zeros(self.level.size - 1)
         return np.where(self.system._momentum(1.0) != 0, WHEEL, 0.0)
 
     def reach(self) -> float:
@@ -145,7 +147,7 @@ class Straight:
 
     def _folded(self, ax: Axes) -> Floats:
         """Draw the line of the chain, beside itself where it turns back; the places of the links are returned."""
-        stands, level, size = self.inverted, self.level, self.base.size
+        stands, level, size = self.inverted, self.level, self.level.size - 1
         turns = np.flatnonzero(stands[1:] != stands[:-1]) + 1
         first, end = np.concatenate([[0], turns]), np.concatenate([turns, [size]])
         places = min(FOLD, 1.0 / first.size) * np.arange(first.size)[::-1]
@@ -173,7 +175,7 @@ class Straight:
         size = 20 + 60 * np.sqrt(weight / weight.max())
         ax.scatter(across[heavy], middle[heavy], s=size[heavy], c=face[heavy], edgecolors=LINK, zorder=3)
         ax.plot(across, level[1:], "o", color="white", markeredgecolor=LINK, markersize=4.0, zorder=4)
-        for sign, colour in ((1, FORWARD), (-1, BACKWARD)):
+        for sign, colour in ((1, FORWARD), (-1, BACKWARD)) if system.has_momentum else ():
             spun = np.flatnonzero(np.sign(system._momentum(1.0)) == sign)
             ax.hlines(middle[spun], across[spun] - WHEEL, across[spun] + WHEEL, color=colour, linewidth=4.0, zorder=3)
         for x, z, name, far in zip(across, middle, self.names(), self.beside(), strict=False):

@@ -358,7 +358,10 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         return int(self.conical_height.size)
 
     def __getitem__(self, index: int) -> Row:
-        return Row(self, place_of("revchain.Modes", "index", index, len(self)))
+        try:
+            return Row(self, place_of("revchain.Modes", "index", index, len(self)))
+        except ValueError as error:
+            raise IndexError(str(error)) from None
 
     def __iter__(self) -> Iterator[Row]:
         return (Row(self, index) for index in range(len(self)))

@@ -196,6 +196,7 @@ class Cord(System):
         return f"Cord of length {self.length:.6g}, {heavy}{', ' + spread if self._function != 0.0 else ''}{tip}"
 
     _kind = "cord"
+    _is_cord = True
 
     @property
     def size(self) -> int:

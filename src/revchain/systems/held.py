@@ -184,6 +184,12 @@ class Held(System):
     def _kind(self) -> str:  # type: ignore[override]
         return f"held {self.system._kind}"
 
+    _is_held = True
+
+    @property
+    def _is_cord(self) -> bool:  # type: ignore[override]
+        return self.system._is_cord
+
     @property
     def _base(self) -> Chain | Cord:
         return self.system

@@ -466,7 +466,7 @@ class Rig(System):
         return self._force(gravity) * self._momentum(gravity)
 
     @property
-    def has_momentum(self) -> bool:
+    def has_momentum(self) -> bool:  # type: ignore[override]
         """Whether a wheel has constant angular momentum, so that the two directions of rotation differ."""
         return self.flywheels is not None and bool(self._momentum(STANDARD_GRAVITY).any())
 
@@ -486,7 +486,7 @@ class Rig(System):
         return self.support
 
     @property
-    def _fluid(self) -> str | None:
+    def _fluid(self) -> str | None:  # type: ignore[override]
         return self.fluid if self._floats else None
 
     @property

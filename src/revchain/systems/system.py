@@ -18,6 +18,11 @@ class System(Unchangeable):
     __slots__ = ()
     plot = Plot()
     by_mass: bool
+    _is_held = False  # whether both ends are held
+    _is_cord = False  # whether there are no links
+    _support: Any = None  # the support of a rig
+    _fluid: str | None = None  # the kind of fluid if something floats in it
+    has_momentum: bool = False  # whether a flywheel has angular momentum of its own
     _kind: str  # "chain", "rig", "cord", "held chain" or "held cord": questions choose their method by it
     _kinds: ClassVar[dict[str, type[System]]] = {}
 
@@ -32,34 +37,9 @@ class System(Unchangeable):
         return self
 
     @property
-    def _is_held(self) -> bool:
-        """Whether both ends are held."""
-        return self._kind.startswith("held")
-
-    @property
-    def _is_cord(self) -> bool:
-        """Whether the system has no links."""
-        return self._kind.endswith("cord")
-
-    @property
     def _stands(self) -> NDArray[np.bool_]:
         """Whether each link is inverted; one False for a cord."""
         return np.zeros(max(self._base.size, 1), bool)
-
-    @property
-    def _support(self) -> Any:
-        """The support if it can move, on a spring or in a circle, else None."""
-        return None
-
-    @property
-    def _fluid(self) -> str | None:
-        """The kind of fluid if something floats in it, else None."""
-        return None
-
-    @property
-    def has_momentum(self) -> bool:
-        """Whether a flywheel has angular momentum of its own."""
-        return False
 
     def _momentum(self, gravity: float) -> Any:
         """Constant angular momentum of each link, divided by gravity for a system given by mass."""
