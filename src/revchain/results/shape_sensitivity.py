@@ -106,7 +106,7 @@ class Change:
 
 
 def _balance(shape: SteadyShape) -> Balance:
-    rig = shape.system if isinstance(shape.system, Rig) else None
+    rig = shape.system if shape.system._kind == "rig" else None
     chain = rig.chain if rig is not None else shape.system
     n = chain.size
 
@@ -242,7 +242,7 @@ def named(given: dict[str, Floats], chain: Chain, single: tuple[str, ...]) -> No
 
 def shape_sensitivity(shape: SteadyShape) -> Sensitivity:
     """See `SteadyShape.sensitivity`."""
-    rig = shape.system if isinstance(shape.system, Rig) else None
+    rig = shape.system if shape.system._kind == "rig" else None
     chain = rig.chain if rig is not None else shape.system
     n = chain.size
     refuse_beyond_memory("revchain.SteadyShape.sensitivity", "the number of links", n, (80 if rig is None else 160) * n)
@@ -281,7 +281,7 @@ def _made(of: str, row: str, rows: int, value: dict[str, Any]) -> Sensitivity:
 
 def _named(shape: SteadyShape, given: dict[str, Floats]) -> dict[str, Floats]:
     """The derivatives by data in their own units, with those that follow from others."""
-    rig = shape.system if isinstance(shape.system, Rig) else None
+    rig = shape.system if shape.system._kind == "rig" else None
     chain = rig.chain if rig is not None else shape.system
     named(given, chain, ("angular_speed", "support_radius", *OF_SUPPORT))
     if rig is None:

@@ -515,6 +515,11 @@ class Chain(System):
         return self._compiled
 
     @property
+    def _whole_length(self) -> float:
+        """Length of the whole system, m."""
+        return self.total_length
+
+    @property
     def _total(self) -> float:
         """Mass or weight of the whole chain, as given."""
         return self._compiled.total_weight

@@ -215,6 +215,11 @@ class Cord(System):
         return self._compiled
 
     @property
+    def _whole_length(self) -> float:
+        """Length of the whole system, m."""
+        return self.length
+
+    @property
     def _total(self) -> float:
         """Mass or weight of cord and tip, as given."""
         return self._compiled.weight + self._compiled.tip_weight

@@ -139,12 +139,12 @@ class Held(System):
     @property
     def length(self) -> float:
         """Length of the chain or cord, m."""
-        return self.system.length if isinstance(self.system, Cord) else self.system.total_length
+        return self.system._whole_length
 
     @property
     def size(self) -> int:
         """Number of links; 0 for a cord."""
-        return self.system.size if isinstance(self.system, Chain) else 0
+        return self.system.size
 
     @property
     def mode_count(self) -> int | None:
@@ -152,11 +152,12 @@ class Held(System):
 
         It is N - 1 for N links, one more for each end on a spring, and one less for each movable pin without mass.
         """
-        if not isinstance(self.system, Chain):
+        if self._is_cord:
             return None
-        force = 2.0 * self.system._compiled.total_weight  # any tension has as many
+        core: Any = self.system._compiled
+        force = 2.0 * core.total_weight  # the number is the same for every tension
         ends = self._ends(STANDARD_GRAVITY) if self.tension is not None else (_FIRM, _FIRM)
-        taut = _core.Held(self.system._compiled, None, (force, 1.0), False, *ends)
+        taut = _core.Held(core, None, (force, 1.0), False, *ends)
         return int(_core.count_held_modes(taut, np.asarray(5e-324), STANDARD_GRAVITY))
 
     @property
@@ -167,7 +168,7 @@ class Held(System):
     @property
     def _total(self) -> float:
         """Mass or weight of the whole system, as given."""
-        return self.system._compiled.weight if isinstance(self.system, Cord) else self.system._compiled.total_weight
+        return self.system._total
 
     def _force(self, gravity: float) -> float:
         return 1.0 if self.weightless else self.system._force(gravity)
@@ -211,7 +212,7 @@ class Held(System):
 
     def _between_its_ends(self, system: Chain | Cord, span: float | None, tension: float | None) -> Held:
         """The same ends with another chain or cord, span or tension."""
-        ends = {} if isinstance(system, Cord) else {"lower": self.lower, "upper": self.upper}
+        ends = {} if system._is_cord else {"lower": self.lower, "upper": self.upper}
         return Held(system, span=span, tension=tension, weightless=self.weightless, **ends)
 
     def _ends(self, gravity: float) -> tuple[_End, _End]:
@@ -282,14 +283,15 @@ def _checked(place: str, end: Support, held: Held) -> Support:
         raise TypeError(f"{place} must be a revchain.Support, got {shown(end)}")
     if end == Support():
         return end
-    if not isinstance(held.system, Chain):
+    if held._is_cord:
         raise ValueError(
             f"{place} end of a cord is a firm point on the axis; cut it into links: Held(cord.chain(100), ...), got {end}"
         )
     if held.tension is not None and end.radius:
         raise ValueError(f"{place} end must be on the axis under a tension; give the span, got radius {end.radius:g}")
     if end.carriage:
-        like(place, held.system, end._given.get("mass"), end._given.get("weight"))
+        chain: Any = held.system
+        like(place, chain, end._given.get("mass"), end._given.get("weight"))
     return end
 
 
