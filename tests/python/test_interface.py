@@ -364,6 +364,17 @@ def test_public_names():
     assert len(words.splitlines()) < 10 * 60
 
 
+def test_what_is_good_does_not_depend_on_what_was_read():
+    """A table is marked where something was not found or not proved, whichever fields were read before."""
+    one = rc.branches(rc.Chain.uniform_plummets(3, length=3.0), min_conical_height=0.04, budget=10)
+    assert not one.complete and not one._is_good() and not pickle.loads(pickle.dumps(one))._is_good()
+    assert rc.branches(SPAN, max_angular_speed=9.0)._is_good()
+    tuned = rc.tune(RIG, vary="links[0].mass", angular_speed=2.0)
+    assert tuned.status == "found" and not tuned.complete and tuned._is_good()
+    assert not rc.tune(POINTS, vary="links[0].mass", conical_height=2.5)._is_good()
+    assert rc.modes(RODS)._is_good() and not rc.modes(RODS, rtol=1e-40)._is_good()
+
+
 def test_classes_of_results_can_be_imported(repository):
     """A class of which a program receives an object is in the package, for isinstance and annotations."""
     for module in pkgutil.iter_modules(results.__path__, "revchain.results."):

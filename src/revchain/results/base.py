@@ -138,7 +138,8 @@ class Result(Unchangeable):
     - `row`: name of what a row of the table is, such as ``"mode"``;
     - `title`: line above the table, with names of fields in braces;
     - `notes`: lines below it, likewise;
-    - `spread`: whether a long table prints evenly spaced rows instead of the first ones.
+    - `spread`: whether a long table prints evenly spaced rows instead of the first ones;
+    - `good`: name of the field that says whether everything was found and proved, by True or by a word.
     """
 
     __slots__ = ("__dict__",)  # has the fields known so far and, as `_core`, the compiled result
@@ -149,9 +150,10 @@ class Result(Unchangeable):
     _title: ClassVar[str] = ""
     _notes: ClassVar[tuple[str, ...]] = ()
     _spread: ClassVar[bool] = False
+    _good: ClassVar[str] = ""
 
     def __init_subclass__(cls, **given: Any) -> None:
-        for name in ("row", "title", "notes", "spread"):
+        for name in ("row", "title", "notes", "spread", "good"):
             if name in given:
                 setattr(cls, f"_{name}", given.pop(name))
         super().__init_subclass__(**given)
@@ -190,8 +192,7 @@ class Result(Unchangeable):
 
     def _is_good(self) -> bool:
         """Whether everything was found and proved."""
-        known = self.__dict__
-        return known.get("complete", True) is not False and known.get("status", "success") in ("success", "found")
+        return not self._good or getattr(self, self._good, True) in (True, "success", "found")
 
     def _left_out(self) -> Collection[str]:
         """Names of columns that a printed table leaves out, because they would take long to compute."""

@@ -325,7 +325,7 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         return f"{len(self)} points{folds}, ends at {self.end}"
 
 
-class Branches(Results[Branch], Moving, row="branch", title="{_title_words}"):
+class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", good="complete"):
     """The branches found down to one conical height; returned by `branches`.
 
     The branches of the modes come first, slowest first; with the support off the axis it is the branch from rest. The

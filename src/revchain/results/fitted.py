@@ -13,7 +13,7 @@ from .base import Field, Result
 _MOST_LINES = 8
 
 
-class Fitted(Result, row="datum", title="Fitted: {summary}", notes=("{_lines}",)):
+class Fitted(Result, row="datum", title="Fitted: {summary}", notes=("{_lines}",), good="status"):
     """Values of p data that best fit m measured speeds, with uncertainties; returned by `fit`.
 
     Examples

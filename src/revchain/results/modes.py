@@ -157,7 +157,7 @@ def _signed_turn(speed: Any) -> Any:
     return TURN if speed.dtype == np.longdouble else float(TURN)
 
 
-class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)):
+class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",), good="status"):
     """The modes of a system, slowest first: speeds, shapes, nodes and error bounds of k modes.
 
     Heights and bounds are computed at once. Shapes, nodes, residuals and sensitivities are computed when they are first

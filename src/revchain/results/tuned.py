@@ -11,7 +11,7 @@ from .base import Field, Result
 Pair = tuple[float, float]
 
 
-class Tuned(Result, row="value", title="Tuned: {summary}"):
+class Tuned(Result, row="value", title="Tuned: {summary}", good="status"):
     """The value of a datum for which a mode has a given speed; returned by `tune`.
 
     Examples
