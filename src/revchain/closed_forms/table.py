@@ -101,6 +101,7 @@ ANY = {
 _RANGES = {", positive.": POSITIVE, ", not negative.": NOT_NEGATIVE, ".": ANY}
 _TYPES = {
     "ArrayLike": "array_like",
+    "Iterable[int]": "iterable of int",
     "Axes": "matplotlib.axes.Axes",
     "tuple[Axes, Axes]": "pair of matplotlib.axes.Axes",
     "FloatOrArray": "float or ndarray",
@@ -108,6 +109,7 @@ _TYPES = {
     "Floats | list[Floats]": "ndarray, or list of ndarray",
 }
 _DRAWN = {"Axes": "The drawing."}
+_NEEDS_MATPLOTLIB = "ImportError\n    If matplotlib is not installed; the message says how to install it."
 _SHAPE = "Arrays have the broadcast shape of the arguments; single numbers give single numbers."
 _BROADCAST = ", or if the shapes do not broadcast"
 
@@ -180,7 +182,7 @@ def described(
 ) -> Callable[[Thing], Thing]:
     """Write the docstring of a function or a class from its signature and its short docstring, by a decorator.
 
-    With `bound` the function is a method of its first argument, which the docstring leaves out.
+    With `bound` the function is a method that draws its first argument, which the docstring leaves out.
     """
 
     def decorated(thing: Thing) -> Thing:
@@ -202,8 +204,11 @@ def described(
         if computed:
             broadcast = any(one.annotation == "ArrayLike" for one in parameters.values())
             refused.insert(0, f"If a number is out of its range or not finite{_BROADCAST if broadcast else ''}.")
-        if refused:
-            sections.append(_section("Raises", "ValueError\n    " + "\n    ".join(refused)))
+        raises = "ValueError\n    " + "\n    ".join(refused) if refused else ""
+        if bound:
+            raises += "\n" * bool(refused) + _NEEDS_MATPLOTLIB
+        if raises:
+            sections.append(_section("Raises", raises))
         facts = {"Accuracy": accuracy, "Cost": cost, "Source": source and f"Greenhill (1908), {source}"}
         notes = [texts.get("notes", ""), *(f"{name}: {fact}." for name, fact in facts.items() if fact)]
         if any(notes):

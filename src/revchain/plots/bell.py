@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @described(bound=True)
 def plot_bell(bell: BellAndClapper, ax: Axes | None = None) -> Axes:
-    """Draw bell, clapper and headstock at rest, true to scale; needs matplotlib.
+    """Draw bell, clapper and headstock at rest, true to scale.
 
     returns: The drawing: the axle, the pin of the clapper, both centres of gravity, and the pendulum lengths beside
         them. The outline of the bell is only an illustration: the data do not define it.

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..closed_forms.table import described
 from ..systems.numbers import word
 from .modes import beside_at_rest
 from .style import half_waves_style, legend_outside
@@ -39,33 +40,15 @@ def words_of(quantity: str, by_mass: bool) -> str:
     return QUANTITIES[quantity] if by_mass else BY_WEIGHT.get(quantity, QUANTITIES[quantity])
 
 
+@described(bound=True)
 def plot_branch(branch: Branch, ax: Axes | None = None, *, quantity: str | None = None) -> Axes:
     """Draw a quantity of the branch against the speed; folds are marked.
 
-    Parameters
-    ----------
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw in; a new figure if left out.
-    quantity : str, optional
-        Quantity to draw: ``lowest_inclination`` (in degrees; of hanging systems unless given), ``tip_radius``,
-        ``largest_offset`` (of held systems unless given), ``top_tension``, ``moment_of_inertia`` or
+    quantity: Quantity to draw: ``lowest_inclination`` (in degrees; of hanging systems unless given),
+        ``tip_radius``, ``largest_offset`` (of held systems unless given), ``top_tension``, ``moment_of_inertia`` or
         ``effective_energy``.
+    raises: If `quantity` is another word, or one that the system does not have.
 
-    Returns
-    -------
-    matplotlib.axes.Axes
-        The drawing.
-
-    Raises
-    ------
-    ValueError
-        If `quantity` is another word, or one that the system does not have.
-    ImportError
-        If matplotlib is not installed; the message says how to install it.
-
-    Examples
-    --------
-    >>> import revchain as rc
     >>> ax = rc.branch(rc.Chain.uniform_plummets(2, length=2.0), 1, min_conical_height=0.1).plot()
     >>> ax.get_ylabel()
     'inclination of the lowest link (degrees)'
@@ -73,32 +56,15 @@ def plot_branch(branch: Branch, ax: Axes | None = None, *, quantity: str | None 
     return _curves([branch], ax, quantity, "revchain.Branch.plot")
 
 
+@described(bound=True)
 def plot_branches(branches: Branches, ax: Axes | None = None, *, quantity: str | None = None) -> Axes:
     """Draw the bifurcation diagram: a quantity of each branch against the speed.
 
-    Parameters
-    ----------
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw in; a new figure if left out.
-    quantity : str, optional
-        Quantity to draw, as in `Branch.plot`.
+    quantity: Quantity to draw, as in `Branch.plot`.
+    returns: The drawing. Colours show half waves, hollow marks folds. Isolated branches are dashed, with the speed
+        at which each starts. The title says whether the diagram is `complete`.
+    raises: If `quantity` is another word, or one that the system does not have.
 
-    Returns
-    -------
-    matplotlib.axes.Axes
-        The drawing. Colours show half waves, hollow marks folds. Isolated branches are dashed, with the speed at
-        which each starts. The title says whether the diagram is `complete`.
-
-    Raises
-    ------
-    ValueError
-        If `quantity` is another word, or one that the system does not have.
-    ImportError
-        If matplotlib is not installed; the message says how to install it.
-
-    Examples
-    --------
-    >>> import revchain as rc
     >>> ax = rc.branches(rc.Chain.uniform_plummets(3, length=3.0), min_conical_height=0.04).plot()
     >>> ax.get_xlabel()
     'speed (rad/s)'

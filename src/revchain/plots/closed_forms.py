@@ -58,30 +58,15 @@ def _finish(ax: Axes, across: str, up: str, title: str) -> None:
     ax.locator_params(axis="x", nbins=3 if ax.dataLim.height > 2.5 * ax.dataLim.width else 5)
 
 
+@described(bound=True)
 def plot_force_diagram(
     diagram: ForceDiagram, axes: tuple[Axes, Axes] | None = None
 ) -> tuple[Axes, Axes]:
     """Draw the shape and its force diagram side by side, with the letters of Fig. 3 of the paper.
 
-    Parameters
-    ----------
-    axes : pair of matplotlib.axes.Axes, optional
-        Axes to draw in; a new figure if left out.
+    returns: Axes of the shape and of the forces. The weights lifted onto the line through N are drawn to a scale in
+        which ON is the mean weight.
 
-    Returns
-    -------
-    pair of matplotlib.axes.Axes
-        Axes of the shape and of the forces. The weights lifted onto the line through N are drawn to a
-        scale in which ON is the mean weight.
-
-    Raises
-    ------
-    ImportError
-        If matplotlib is not installed; the message says how to install it.
-
-    Examples
-    --------
-    >>> import revchain as rc
     >>> shape = rc.steady_shapes(rc.Chain.uniform_plummets(3, length=3.0), conical_height=0.5)[0]
     >>> figure, forces = shape.force_diagram().plot()
     >>> forces.get_title()
@@ -149,7 +134,7 @@ def plot_force_diagram(
 def plot_funicular_polygon(
     polygon: FunicularPolygon, axes: tuple[Axes, Axes] | None = None
 ) -> tuple[Axes, Axes]:
-    """Draw the polygon and its force diagram side by side, sides and rays in the same colours; needs matplotlib.
+    """Draw the polygon and its force diagram side by side, sides and rays in the same colours.
 
     returns: Axes of the polygon (with the weights also moved to a horizontal line) and of the force diagram.
 
@@ -184,7 +169,7 @@ def plot_funicular_polygon(
 
 @described(bound=True)
 def plot_skipping_rope(rope: SkippingRope, ax: Axes | None = None) -> Axes:
-    """Draw the rope seen from the side; needs matplotlib.
+    """Draw the rope seen from the side.
 
     >>> rc.SkippingRope(span=2.0, length=3.0).plot().get_xlabel()
     'along the axis (m)'
@@ -202,7 +187,7 @@ def plot_skipping_rope(rope: SkippingRope, ax: Axes | None = None) -> Axes:
 
 @described(bound=True)
 def plot_tortuous_rope(rope: TortuousRope, ax: Axes | None = None, *, half_waves: float = 4.0) -> Axes:
-    """Draw the rope seen along the axis, with the circles of its smallest and largest distance; needs matplotlib.
+    """Draw the rope seen along the axis, with the circles of its smallest and largest distance.
 
     half_waves: Number of half waves to draw, from a point nearest to the axis; positive and finite
 
@@ -232,7 +217,7 @@ def plot_tortuous_rope(rope: TortuousRope, ax: Axes | None = None, *, half_waves
 def plot_governor(
     motion: GovernorMotion, ax: Axes | None = None, *, duration: float | None = None
 ) -> Axes:
-    """Draw the angle against time, with its smallest and largest values; needs matplotlib.
+    """Draw the angle against time, with its smallest and largest values.
 
     duration: Length of the time axis in s; two periods if left out.
     raises: If the motion never returns and no `duration` is given, or if `duration` is not positive and finite.
@@ -258,7 +243,7 @@ def plot_governor(
 
 @described(bound=True)
 def plot_waves(string: GyrostaticString, ax: Axes | None = None) -> Axes:
-    """Draw the speeds of circular waves in both directions against their phase; needs matplotlib.
+    """Draw the speeds of circular waves in both directions against their phase.
 
     >>> string = rc.GyrostaticString(weight=9.80665, length=1.0, tension=100.0, momentum=1.0)
     >>> string.plot().get_xlabel()
@@ -280,7 +265,7 @@ def plot_waves(string: GyrostaticString, ax: Axes | None = None) -> Axes:
 
 @described(bound=True)
 def plot_vibration(string: GyrostaticString, angular_speed: float, links: int = 60, ax: Axes | None = None) -> Axes:
-    """Draw the turning plane of a vibration along the string, from the side and from the end; needs matplotlib.
+    """Draw the turning plane of a vibration along the string, from the side and from the end.
 
     angular_speed: Angular frequency of the vibration, rad/s
     links: Number of links to draw.

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..closed_forms.table import described
 from ..results.motions import Response
 from ..results.sheet import digits
 from ..systems.numbers import integer, listed, shown
@@ -192,28 +193,14 @@ def floating(system: System) -> NDArray[np.bool_]:
     return np.broadcast_to(next(iter(displaced._given.values())), base.size) > np.broadcast_to(base._compiled.weight, base.size)
 
 
+@described(bound=True)
 def plot_system(system: System, ax: Axes | None = None) -> Axes:
     """Draw the system at rest, true to scale along the axis.
 
-    Parameters
-    ----------
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw in; a new figure if left out.
+    returns: The drawing: pins, centres of gravity (larger dots are heavier) and names of up to 40 links. Inverted
+        links are thick, wheels are seen edge-on, bodies that float are hollow, and a cord is thicker where it is
+        heavier.
 
-    Returns
-    -------
-    matplotlib.axes.Axes
-        The drawing: pins, centres of gravity (larger dots are heavier) and names of up to 40 links. Inverted links
-        are thick, wheels are seen edge-on, bodies that float are hollow, and a cord is thicker where it is heavier.
-
-    Raises
-    ------
-    ImportError
-        If matplotlib is not installed; the message says how to install it.
-
-    Examples
-    --------
-    >>> import revchain as rc
     >>> rc.Chain(mass=[1.0, 2.0], length=[0.5, 0.3]).plot().get_ylabel()
     'depth below the support (m)'
     """
@@ -266,6 +253,7 @@ def rows_of(place: str, modes: Modes, which: Iterable[int] | None) -> Whole:
     return np.concatenate([np.flatnonzero(modes.number == number) for number in numbers])
 
 
+@described(bound=True)
 def plot_modes(
     found: Modes,
     ax: Axes | None = None,
@@ -277,30 +265,11 @@ def plot_modes(
 
     Forward modes of a rig with flywheels are blue, backward ones red; inverted links are thick.
 
-    Parameters
-    ----------
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw in; a new figure if left out.
-    modes : iterable of int, optional
-        Numbers of the modes to draw (for a rig, of both directions); the six slowest of this result if left out.
-    carried : Response, optional
-        Response of the same system at one speed with all pins, drawn first, with its support on its circle.
+    modes: Numbers of the modes to draw (for a rig, of both directions); the six slowest of this result if left out.
+    carried: Response of the same system at one speed with all pins, drawn first, with its support on its circle.
+    raises: If `modes` has a number that is not in this result, the result is empty, or `carried` is not such a
+        response.
 
-    Returns
-    -------
-    matplotlib.axes.Axes
-        The drawing.
-
-    Raises
-    ------
-    ValueError
-        If `modes` has a number that is not in this result, the result is empty, or `carried` is not such a response.
-    ImportError
-        If matplotlib is not installed; the message says how to install it.
-
-    Examples
-    --------
-    >>> import revchain as rc
     >>> ax = rc.modes(rc.Chain.uniform_rods(120, length=0.36), 4).plot()
     >>> ax.get_ylabel()
     'depth below the support (m)'

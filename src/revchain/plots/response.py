@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..closed_forms.table import described
 from ..systems.numbers import Floats, boolean, integer, listed, word
 from .modes import Straight, beside_at_rest, plot_carried
 from .style import MOST_PINS_AS_DOTS, legend_outside, thinned
@@ -21,6 +22,7 @@ MOST_CURVES = 4  # of pins, unless asked
 MOST_MOMENTS = 9  # in a picture of shapes
 
 
+@described(bound=True)
 def plot_response(
     found: Response, ax: Axes | None = None, pins: Iterable[int] | None = None, *, resonances: bool = True
 ) -> Axes:
@@ -29,32 +31,12 @@ def plot_response(
     A line is dashed if the pin is on the side opposite to the support; vertical lines mark the resonances.
     A response at one speed is drawn as a shape: the offsets of the pins against their depths.
 
-    Parameters
-    ----------
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw in; a new figure if left out.
-    pins : iterable of int, optional
-        Numbers of the pins to draw. If left out: the lowest and up to three others, evenly spaced; all at a
+    pins: Numbers of the pins to draw. If left out: the lowest and up to three others, evenly spaced; all at a
         single speed.
-    resonances : bool
-        Whether to mark the whirl speeds in the range of the plot; a `Rig` has no marks.
+    resonances: Whether to mark the whirl speeds in the range of the plot; a `Rig` has no marks.
+    raises: If `pins` has a pin that is not in this result, or the result has no speed.
 
-    Returns
-    -------
-    matplotlib.axes.Axes
-        The drawing.
-
-    Raises
-    ------
-    ValueError
-        If `pins` has a pin that is not in this result, or the result has no speed.
-    ImportError
-        If matplotlib is not installed; the message says how to install it.
-
-    Examples
-    --------
     >>> import numpy as np
-    >>> import revchain as rc
     >>> chain = rc.Chain.uniform_rods(20, length=0.36)
     >>> ax = rc.response(chain, angular_speed=np.linspace(1.0, 30.0, 400)).plot()
     >>> ax.get_xlabel()
@@ -120,38 +102,20 @@ def _known(pins: Iterable[int], available: list[int]) -> list[int]:
     return numbers
 
 
+@described(bound=True)
 def plot_swing(
     found: Swing, ax: Axes | None = None, *, kind: str | None = None, pins: Iterable[int] = (0,)
 ) -> Axes:
     """Draw the system at the given times, the offsets of pins against time, or their paths seen from above.
 
-    Parameters
-    ----------
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw in; a new figure if left out.
-    kind : {"shapes", "time", "path"}, optional
-        ``"shapes"``: shapes from dark (early) to light (late), with enlarged offsets, at most nine; the usual one of a
-        swing in a plane. ``"time"``: offsets against time, with momentum those along y dashed. ``"path"``: paths seen
-        from above; the usual one, and only, with momentum.
-    pins : iterable of int
-        For ``"time"`` and ``"path"``: numbers of the pins, 0 for the free end; for a cord, indices in `arc_length`.
+    kind: ``"shapes"``: shapes from dark (early) to light (late), with enlarged offsets, at most nine; the usual one
+        of a swing in a plane. ``"time"``: offsets against time, with momentum those along y dashed. ``"path"``:
+        paths seen from above; the usual one, and only, with momentum.
+    pins: For ``"time"`` and ``"path"``: numbers of the pins, 0 for the free end; for a cord, indices in
+        `arc_length`.
+    raises: If `kind` is another word, or there is no such pin.
 
-    Returns
-    -------
-    matplotlib.axes.Axes
-        The drawing.
-
-    Raises
-    ------
-    ValueError
-        If `kind` is another word, or there is no such pin.
-    ImportError
-        If matplotlib is not installed; the message says how to install it.
-
-    Examples
-    --------
     >>> import numpy as np
-    >>> import revchain as rc
     >>> chain = rc.Chain.uniform_plummets(10, length=1.0)
     >>> plucked = np.interp(np.arange(11), [0, 5, 10], [0.0, 0.05, 0.0])
     >>> ax = rc.swing(chain, np.linspace(0, 4, 300), offset=plucked).plot(kind="time", pins=[0, 5])

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..closed_forms.table import described
 from .modes import beside_at_rest
 from .style import MOST_PINS_AS_DOTS, half_waves_style, keep_room, legend_outside, thinned
 
@@ -24,27 +25,10 @@ def _fitting_height(shapes: Sequence[SteadyShape]) -> float:
     return float(np.clip(1.2 + 5.0 * tall / wide, 3.4, 6.0)) if wide else 6.0
 
 
+@described(bound=True)
 def plot_shape(shape: SteadyShape, ax: Axes | None = None) -> Axes:
     """Draw the shape, true to scale.
 
-    Parameters
-    ----------
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw in; a new figure if left out.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
-        The drawing.
-
-    Raises
-    ------
-    ImportError
-        If matplotlib is not installed; the message says how to install it.
-
-    Examples
-    --------
-    >>> import revchain as rc
     >>> ax = rc.steady_shapes(rc.Chain.uniform_plummets(3, length=1.0), conical_height=0.05)[0].plot()
     >>> ax.get_xlabel()
     'distance from axis (m)'
@@ -52,27 +36,10 @@ def plot_shape(shape: SteadyShape, ax: Axes | None = None) -> Axes:
     return _curves([shape], ax)
 
 
+@described(bound=True)
 def plot_shapes(shapes: SteadyShapes, ax: Axes | None = None) -> Axes:
     """Draw all shapes in one picture, true to scale, coloured by half waves.
 
-    Parameters
-    ----------
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw in; a new figure if left out.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
-        The drawing.
-
-    Raises
-    ------
-    ImportError
-        If matplotlib is not installed; the message says how to install it.
-
-    Examples
-    --------
-    >>> import revchain as rc
     >>> ax = rc.steady_shapes(rc.Chain.uniform_plummets(3, length=1.0), conical_height=0.02).plot()
     >>> ax.get_title()
     '5 hanging shapes, proved complete'
