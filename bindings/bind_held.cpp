@@ -13,7 +13,7 @@ using revchain::HeldCordShape;
 using revchain::HeldShape;
 using revchain::Index;
 
-/// What shapes of links and of cords have in common.
+/// Binds what the shapes of held links and of held cords share.
 template <class Shape>
 py::class_<Shape> bind_held_shape(py::module_& module, const char* name, const char* what) {
     auto shape = bind_shape<Shape>(module, name, what);

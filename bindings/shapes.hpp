@@ -6,8 +6,9 @@
 #include "bindings.hpp"
 #include "revchain/stability.hpp"
 
-// What shapes and branches of all systems have. Python makes a shape from its numbers: `blank_shape(system)`, then each
-// number is set. Forces have the same names for all systems; those of held systems are times the conical height.
+// Binds the members that shapes and branches share in all systems. Python makes a shape from its numbers:
+// `blank_shape(system)`, then each number is set. Forces have the same names for all systems; those of held systems are
+// times the conical height.
 
 template <class Shape>
 void def_column(py::class_<Shape>& shapes, const char* name, revchain::Vector<double> Shape::*member) {
@@ -62,7 +63,7 @@ py::class_<Shapes> bind_shapes(py::module_& module, const char* name) {
     return list;
 }
 
-/// What is asked about the shapes at a speed; each system takes what it knows.
+/// The arguments of `shapes` at one speed; each system reads those that it has.
 struct AtSpeed {
     std::optional<double> conical_height, angular_speed;
     double gravity;
@@ -130,7 +131,7 @@ void def_on_branch(py::module_& module, const char* question, Find find) {
         "system"_a, "mode"_a, "name"_a, "value"_a, "gravity"_a, "direction"_a, "min_conical_height"_a);
 }
 
-/// What branches of all systems that hang have.
+/// Binds the members that branches share in all hanging systems.
 template <class Branch>
 py::class_<Branch> bind_branch(py::module_& module, const char* name) {
     py::class_<Branch> branches(module, name, "A branch of steady shapes, point by point.");

@@ -195,7 +195,7 @@ LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length,
     });
 }
 
-/// Returns the weights below four neighbouring runs of `length` links, from link `first` on.
+/// Returns the weights below four neighbouring runs of `length` links. Link `first` begins them.
 /// `below` is the weight below the first run; it becomes the weight below the link after the last
 /// run.
 template <class T, class V = Pack<T>>

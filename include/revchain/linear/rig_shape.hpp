@@ -16,7 +16,7 @@ struct RigShapeFinder {
     Index idle = 0;  ///< the number of lowest pins that the pencil omits
     pencil::SignedPencil<RigWord> sense;
     std::vector<RigWord> roots;
-    /// The same pencil, to find shapes eight at a time. If it is null, each is found alone.
+    /// The same pencil by elements, which finds eight shapes at a time. Null: one at a time.
     std::shared_ptr<const pencil::ElementPencil<RigWord, Spins>> elements{};
 
     /// Returns shapes of `count` modes from index `from` on; see `found_shapes`.

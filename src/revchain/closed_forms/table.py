@@ -241,7 +241,7 @@ def _section(title: str, text: str) -> str:
 
 
 def _text(name: str, texts: dict[str, str]) -> str:
-    """What an argument is, by the row or else by the vocabulary; then its range, unless the text is complete."""
+    """The text on an argument, from the row or the vocabulary. Its range is added where the text lacks one."""
     ending, vocabulary = next((each for each in _RANGES.items() if name in each[1]), (".", {}))
     text = texts.get(name) or vocabulary[name]
     return text if text.endswith(".") else text + ending

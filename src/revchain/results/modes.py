@@ -621,7 +621,7 @@ def _speed_bound(error: Floats) -> Floats:
 
 
 def rest(values: Numbers, second: Floats | None) -> Floats | None:
-    """What doubles leave out of numbers, which a file of text cannot hold: a second double, or that of longdouble numbers."""
+    """The second doubles if given; else what doubles leave of longdouble numbers, which text cannot hold."""
     if second is not None or values.dtype != np.longdouble:
         return second
     with np.errstate(invalid="ignore"):

@@ -267,7 +267,7 @@ class Scene(Tables, frozen=True, weakref=True):
         return table
 
     def _made(self) -> dict[str, Any]:
-        """What has been made of the scene: its system with the gravity, and the arguments of each question."""
+        """The cache of the scene: its system with the gravity, and the arguments of each question."""
         key = id(self)
         if key not in _MADE:
             _MADE[key] = weakref.ref(self, lambda _, made=_MADE: made.pop(key, None)), {}  # type: ignore[misc]

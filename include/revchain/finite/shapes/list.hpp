@@ -46,8 +46,8 @@ bool hangs_at_one_inclination(const AnyLinks& links, const Interval<double>& hei
 /// is at least one shape between two tangents at which `sign(tangent)`, the sign of the support's
 /// offset, is certain and opposite. The sign is sampled at the ends of the ascending `ranges`, and
 /// at those of `points` tangents between 0 and `last` that lie in a range. A third of these points
-/// are evenly spaced in the inclination, a third in the tangent, and a third in its logarithm, from
-/// 1e-12 `last` on.
+/// are evenly spaced in the inclination, a third in the tangent, and a third in its logarithm; the
+/// last third begins at the tangent 1e-12 times `last`.
 template <Real T, class Sign>
 std::vector<Bracket<T>> scanned(const std::vector<Bracket<T>>& ranges, double last, long points,
                                 const Sign& sign) {
