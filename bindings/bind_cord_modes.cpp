@@ -20,7 +20,7 @@ using CordFunction = std::function<double(double)>;
 template <class System>
 CordModes modes(const System& cord, Index first, std::optional<Index> count, std::optional<Pair> conical_height,
                 std::optional<std::tuple<double, double, double>> angular_speed, std::optional<double> rtol,
-                revchain::Progress* progress, double gravity) {
+                MaybeProgress progress, double gravity) {
     const py::gil_scoped_release release;
     revchain::CordModesOptions options{.first = first, .count = count, .gravity = gravity};
     if (conical_height) options.conical_height = {conical_height->first, conical_height->second};
@@ -29,8 +29,14 @@ CordModes modes(const System& cord, Index first, std::optional<Index> count, std
         options.gravity = std::get<2>(*angular_speed);
     }
     options.rtol = rtol;
-    options.progress = progress;
+    options.progress = progress.value_or(nullptr);
     return revchain::modes(cord, options);
+}
+
+/// Modes whose heights are known, slowest first.
+CordModes of_heights(const Cord& cord, Index first, const Array& height) {
+    return {
+        .cord = cord, .first = first, .conical_height = Eigen::Map<const Vector<double>>(height.data(), height.size())};
 }
 
 /// Offsets or slopes of every mode at places, shape (k, places).
@@ -83,6 +89,13 @@ py::tuple swing(const Cord& cord, const py::object& offset, const py::object& ve
 
 void bind_cord_modes(py::module_& module) {
     py::class_<CordModes>(module, "CordModes", "Modes of a cord.")
+        .def(py::init(&of_heights), "cord"_a, "first"_a, "conical_height"_a)
+        .def(py::init([](const HeldCord& held, Index first, const Array& height) {
+                 CordModes modes = of_heights(held.system(), first, height);
+                 modes.held = held.by();
+                 return modes;
+             }),
+             "held"_a, "first"_a, "conical_height"_a)
         .def_readonly("first", &CordModes::first)
         .def_property_readonly("conical_height", [](const CordModes& m) { return to_numpy(m.conical_height); })
         .def_property_readonly("error_bound", [](const CordModes& m) { return to_numpy(m.error_bound); })

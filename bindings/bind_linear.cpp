@@ -143,7 +143,7 @@ FoundModes solved(const Chain& chain, const Asked& asked, const std::string& met
 
 FoundModes modes(const Chain& chain, Index first, std::optional<Index> count, std::optional<Pair> conical_height,
                  std::optional<Triple> angular_speed, std::optional<double> rtol, bool certify,
-                 const std::string& precision, const std::string& method, revchain::Progress* progress, Index threads) {
+                 const std::string& precision, const std::string& method, MaybeProgress progress, Index threads) {
     check_word("method", method, methods);
     check_word("precision", precision, precisions);
     const auto way = method == "bisection"      ? revchain::ModesMethod::bisection
@@ -152,9 +152,10 @@ FoundModes modes(const Chain& chain, Index first, std::optional<Index> count, st
                      : method == "interpolated" ? revchain::ModesMethod::interpolated
                                                 : revchain::ModesMethod::automatic;
     const Asked asked{first, count, conical_height, angular_speed, rtol, certify, way, threads};
-    if (precision == "extended") return solved<long double>(chain, asked, method, progress);
-    if (precision == "double-double") return solved<revchain::DoubleDouble>(chain, asked, method, progress);
-    return solved<double>(chain, asked, method, progress);
+    revchain::Progress* reported = progress.value_or(nullptr);
+    if (precision == "extended") return solved<long double>(chain, asked, method, reported);
+    if (precision == "double-double") return solved<revchain::DoubleDouble>(chain, asked, method, reported);
+    return solved<double>(chain, asked, method, reported);
 }
 
 using HeldChain = revchain::Held<Chain>;
@@ -162,9 +163,9 @@ using HeldChain = revchain::Held<Chain>;
 /// Modes of a chain held straight under a tension at its upper end.
 FoundModes held_modes(const HeldChain& held, Index first, std::optional<Index> count,
                       std::optional<Pair> conical_height, std::optional<Triple> angular_speed,
-                      std::optional<double> rtol, bool certify, revchain::Progress* progress, double gravity) {
+                      std::optional<double> rtol, bool certify, MaybeProgress progress, double gravity) {
     const Asked asked{first, count, conical_height, angular_speed, rtol, certify, revchain::ModesMethod::automatic};
-    const auto as_hung = asked.options<double>(progress);
+    const auto as_hung = asked.options<double>(progress.value_or(nullptr));
     const revchain::HeldModesOptions options{.first = first,
                                              .count = as_hung.count,
                                              .conical_height = as_hung.conical_height,
@@ -172,7 +173,7 @@ FoundModes held_modes(const HeldChain& held, Index first, std::optional<Index> c
                                              .rtol = rtol,
                                              .gravity = gravity,
                                              .certify = certify,
-                                             .progress = progress};
+                                             .progress = as_hung.progress};
     return {without_lock([&] { return revchain::modes(held, options); }), certify};
 }
 

@@ -18,12 +18,6 @@ using revchain::Table;
 using revchain::Vector;
 using revchain::WhirlModes;
 
-/// The modes of one direction that a result holds.
-struct Kept {
-    Index first = 1, count = revchain::all_modes;
-    bool holds(Index number) const { return number >= first && number - first < count; }
-};
-
 /// Modes of a rig in both directions, slowest first; shapes are computed when read.
 struct FoundRigModes {
     RigModes modes;
@@ -34,11 +28,10 @@ struct FoundRigModes {
     std::vector<Place> order;
     Index pins;
 
-    FoundRigModes(RigModes found, Index pins_, const std::array<Kept, 2>& kept) : modes(std::move(found)), pins(pins_) {
+    FoundRigModes(RigModes found, Index pins_) : modes(std::move(found)), pins(pins_) {
         for (const bool forward : {true, false}) {
             const WhirlModes& sense = forward ? modes.forward : modes.backward;
-            for (Index j = 0; j < sense.size(); ++j)
-                if (kept[forward ? 0 : 1].holds(sense.first + j)) order.push_back({forward, j});
+            for (Index j = 0; j < sense.size(); ++j) order.push_back({forward, j});
         }
         // equal heights may have speeds an ulp apart
         const auto slowness = [this](const Place& x) {
@@ -169,27 +162,25 @@ void bind_rig_modes(py::module_& module) {
     module.def(
         "rig_modes",
         [](const Rig& rig, Index first, std::optional<Index> count, const Window& heights, const Window& speeds,
-           std::optional<double> rtol, bool certify, double gravity, revchain::Progress* progress, Index threads,
-           std::optional<std::array<Index, 4>> kept) {
+           std::optional<double> rtol, bool certify, double gravity, MaybeProgress progress, Index threads) {
             revchain::RigModesOptions options{.first = first,
                                               .rtol = rtol,
                                               .certify = certify,
                                               .gravity = gravity,
                                               .other = false,
                                               .threads = threads,
-                                              .progress = progress};
+                                              .progress = progress.value_or(nullptr)};
             if (heights) options.conical_height = {heights->first, heights->second};
             if (speeds) options.angular_speed = {speeds->first, speeds->second};
             if (!heights && !speeds) options.count = count.value_or(revchain::all_modes);
-            std::array<Kept, 2> only;
-            if (kept) only = {Kept{(*kept)[0], (*kept)[1]}, Kept{(*kept)[2], (*kept)[3]}};
-            return without_lock([&] { return Found(revchain::modes(rig, options), rig.size() + 1, only); });
+            return without_lock([&] { return Found(revchain::modes(rig, options), rig.size() + 1); });
         },
         "rig"_a, "first"_a, "count"_a, "conical_height"_a, "angular_speed"_a, "rtol"_a, "certify"_a, "gravity"_a,
-        "progress"_a = nullptr, "threads"_a = 1, "kept"_a = py::none());
+        "progress"_a = py::none(), "threads"_a = 1);
     module.def(
         "other_rig_modes",
-        [](const Rig& rig, double gravity, const Found* found) {
+        [](const Rig& rig, double gravity, std::optional<const Found*> given) {
+            const Found* found = given.value_or(nullptr);
             const bool known = found && static_cast<Index>(found->modes.other.size()) == found->modes.other_available;
             const auto other =
                 known ? found->modes.other
@@ -200,7 +191,7 @@ void bind_rig_modes(py::module_& module) {
                 Found::items<double>(other, [](const Other& x) { return x.growth_rate; }),
                 Found::items<double>(other, [](const Other& x) { return x.error_bound; }));
         },
-        "rig"_a, "gravity"_a, "found"_a = nullptr);
+        "rig"_a, "gravity"_a, "found"_a = py::none());
     module.def(
         "count_rig_modes",
         [](const Rig& rig, const Array& values, bool by_height, double gravity) {

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ using namespace pybind11::literals;
 
 /// Numbers in any order and of any type, as contiguous doubles.
 using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/// What a question reports to, or None.
+using MaybeProgress = std::optional<revchain::Progress*>;
 
 /// Python's direction of rotation: 1 or -1.
 inline revchain::Rotation rotation(int direction) {

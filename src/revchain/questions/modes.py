@@ -306,7 +306,9 @@ def _by_model(found: tuple[Any, ...], chain: Chain, gravity: float, rtol: float 
         raise ValueError(f"revchain.modes: method {method!r} does not apply to this chain; explain says why")
     given: dict[str, Any] = {"conical_height": height, "error_bound": bound, "conical_height_low": low}
     given |= {"number": np.arange(first, first + len(height)), "certificate": None, "method": method}
-    given |= {"status": "success" if rtol is None else status, "precision": "double" if low is None else "double-double"}
+    precision = "double" if low is None else "double-double"
+    given |= {"status": "success" if rtol is None else status, "precision": precision}
+    given["_make"] = lambda: _core.modes(chain._compiled, first, len(height), None, None, rtol, False, precision, "auto")
     return Modes._made(None, system=chain, gravity=gravity, rtol=rtol, **given)
 
 

@@ -503,14 +503,6 @@ class Chain(System):
 
     _kind = "chain"
 
-    def _modes_again(self, modes: Any) -> _core.Modes:
-        way = modes.method if modes.method in _core.METHODS else "auto"
-        certified = modes.certificate is not None
-        first = int(modes.number[0])
-        return _core.modes(
-            self._compiled, first, len(modes), None, None, modes.rtol, certified, modes.precision, way
-        )
-
     def _under(self, gravity: float) -> _core.Chain:
         return self._compiled
 

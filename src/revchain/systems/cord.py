@@ -208,9 +208,6 @@ class Cord(System):
         """None: a cord has infinitely many modes."""
         return None
 
-    def _modes_again(self, modes: Any) -> _core.CordModes:
-        return _core.cord_modes(self._compiled, int(modes.number[0]), len(modes), None, None, modes.rtol)
-
     def _under(self, gravity: float) -> _core.Cord:
         return self._compiled
 

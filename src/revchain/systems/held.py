@@ -199,12 +199,6 @@ class Held(System):
     def _fixes_gravity(self) -> str | None:
         return "a system held by a tension in newtons" if self.by_mass or self.weightless else None
 
-    def _modes_again(self, modes: Any) -> _core.Modes | _core.CordModes:
-        held, asked = self._under(modes.gravity), (int(modes.number[0]), len(modes), None, None, modes.rtol)
-        if isinstance(held, _core.Held):
-            return _core.held_modes(held, *asked, modes.certificate is not None, None, modes.gravity)
-        return _core.held_modes(held, *asked, None, modes.gravity)
-
     def _under(self, gravity: float) -> _core.Held | _core.HeldCord:
         if isinstance(self.system, Cord):
             return _core.HeldCord(self.system._compiled, self.span, self._pull(gravity), self.weightless)

@@ -494,15 +494,6 @@ class Rig(System):
         """None: how many modes a rig has is known only when they are found."""
         return None
 
-    def _modes_again(self, modes: Any) -> _core.RigModes:
-        first, last = int(modes.number.min()), int(modes.number.max())
-        each = [modes.number[modes.direction == way] for way in (1, -1)]
-        kept = [int(n) for numbers in each for n in (numbers.min(initial=last + 1), numbers.size)]
-        rig, certified = self._under(modes.gravity), modes.certificate is not None
-        many = last - first + 1
-        only = (kept[0], kept[1], kept[2], kept[3])
-        return _core.rig_modes(rig, first, many, None, None, modes.rtol, certified, modes.gravity, kept=only)
-
     def _momentum_of_wheels(self, gravity: float, inclination: Any) -> float:
         return self._force(gravity) * float(np.sum(self._momentum(gravity) * np.cos(inclination)))
 

@@ -68,10 +68,6 @@ class System(Unchangeable):
         """Words for the system if the heights of its modes depend on gravity, else None."""
         return None
 
-    def _modes_again(self, modes: Any) -> Any:
-        """The compiled modes of a loaded result, computed once more by their numbers."""
-        raise NotImplementedError
-
     def _force_in_shape(self, gravity: float, conical_height: float, angular_speed: float) -> float:
         """Factor that turns a force of a compiled steady shape into a force of the results."""
         return self._force(gravity)
