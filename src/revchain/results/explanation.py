@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from .base import Field, Result
-from .sheet import Column, Sheet
 
 
 class MethodEstimate(NamedTuple):
@@ -20,7 +20,15 @@ class MethodEstimate(NamedTuple):
     chosen: bool
 
 
-class Explanation(Result):
+def _column(name: str) -> Callable[[Explanation], list[Any]]:
+    return lambda e: [getattr(row, name) for row in e.rows]
+
+
+def _shown(name: str, text: Callable[[float], str]) -> Callable[[Explanation], list[str]]:
+    return lambda e: [text(getattr(row, name)) if row.applies else "-" for row in e.rows]
+
+
+class Explanation(Result, row="method", title="{_heading}", good="meets_tolerance"):
     """The method that `modes` tries first for a tolerance, with the alternatives; returned by `explain`.
 
     Examples
@@ -33,39 +41,52 @@ class Explanation(Result):
 
     __slots__ = ()
     estimates: Field[tuple[tuple[Any, ...], ...]] = Field("The rows as plain tuples.")
-    meets_tolerance: Field[bool] = Field(
-        "Whether the chosen method is within `rtol`; if not, no method is, and it is the most accurate one."
+    rows: Field[tuple[MethodEstimate, ...]] = Field(
+        "For each method its name, whether it applies (if not, the reason), the bound of its relative error, the expected "
+        "time in seconds, and whether it is chosen.",
+        lambda e: tuple(MethodEstimate(*row) for row in e.estimates),
     )
-    rtol: Field[float] = Field("Requested relative tolerance; 0 for the best possible.")
-
-    @property
-    def rows(self) -> tuple[MethodEstimate, ...]:
-        """For each method its name, whether it applies (if not, the reason), the bound of its relative error, the expected
-        time in seconds, and whether it is chosen."""
-        return tuple(MethodEstimate(*row) for row in self.estimates)
+    _names: Field[list[str]] = Field(
+        "The names of the methods.",
+        _column("name"),
+        column="name",
+        heading="   method",
+        left=True,
+        shown=lambda e: [("-> " if row.chosen else "   ") + row.name for row in e.rows],
+    )
+    _applies: Field[list[bool]] = Field("Whether each method applies.", _column("applies"), axes=(), column="applies")
+    _bounds: Field[list[float]] = Field(
+        "The bound of the relative error of each method.",
+        lambda e: [row.error_bound if row.applies else None for row in e.rows],
+        column="error_bound",
+        heading="error bound",
+        shown=_shown("error_bound", "{:.1e}".format),
+    )
+    _costs: Field[list[float]] = Field(
+        "The expected time of each method.",
+        lambda e: [row.cost if row.applies else None for row in e.rows],
+        column="cost",
+        heading="expected time",
+        shown=_shown("cost", lambda seconds: time_text(seconds)),
+    )
+    _reasons: Field[list[str]] = Field(
+        "The reason why a method does not apply.", _column("reason"), column="reason", heading=" ", left=True
+    )
+    _chosen: Field[list[bool]] = Field("Whether each method is chosen.", _column("chosen"), axes=(), column="chosen")
+    rtol: Field[float] = Field("Requested relative tolerance; 0 for the best possible.", fact=True)
+    meets_tolerance: Field[bool] = Field(
+        "Whether the chosen method is within `rtol`; if not, no method is, and it is the most accurate one.", fact=True
+    )
 
     @property
     def chosen(self) -> MethodEstimate | None:
         """The row of the chosen method; None if no method applies."""
         return next((row for row in self.rows if row.chosen), None)
 
-    def _sheet(self, brief: bool = False) -> Sheet:
-        rows = self.rows
-        bounds = [row.error_bound if row.applies else None for row in rows]
-        marked = [("-> " if row.chosen else "   ") + row.name for row in rows]
-        costs = [row.cost if row.applies else None for row in rows]
-        columns = [
-            Column("name", [row.name for row in rows], "   method", left=True, shown=marked),
-            Column("applies", [row.applies for row in rows]),
-            Column("error_bound", bounds, "error bound", shown=["-" if x is None else f"{x:.1e}" for x in bounds]),
-            Column("cost", costs, "expected time", shown=["-" if x is None else time_text(x) for x in costs]),
-            Column("reason", [row.reason for row in rows], " ", left=True),
-            Column("chosen", [row.chosen for row in rows]),
-        ]
-        asked = f"rtol {self.rtol:g}" if self.rtol else "full accuracy"
-        heading = asked + ("" if self.meets_tolerance else ": no method keeps it")
-        facts = {"rtol": self.rtol, "meets_tolerance": self.meets_tolerance}
-        return Sheet("method", heading, columns, facts, good=self.meets_tolerance)
+    @property
+    def _heading(self) -> str:
+        wanted = f"rtol {self.rtol:g}" if self.rtol else "full accuracy"
+        return wanted + ("" if self.meets_tolerance else ": no method keeps it")
 
 
 def time_text(seconds: float) -> str:

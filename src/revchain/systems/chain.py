@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import Any, Literal
+from typing import Any, Literal, Never
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -53,6 +53,8 @@ class Chain(System):
 
     Raises
     ------
+    TypeError
+        If a quantity is given without its name, or no length is given.
     ValueError
         If a number is not real and finite, or has a unit of another kind; if arrays have more than one dimension or
         different lengths, or there are no links; if a length is not positive, a mass is negative, the lowest link has
@@ -87,10 +89,10 @@ class Chain(System):
 
     def __init__(
         self,
-        *,
+        *unnamed: Never,
         mass: ArrayLike | None = None,
         weight: ArrayLike | None = None,
-        length: ArrayLike,
+        length: ArrayLike | None = None,
         centroid: ArrayLike | None = None,
         pendulum_length: ArrayLike | None = None,
         radius_of_gyration: ArrayLike | None = None,
@@ -98,6 +100,10 @@ class Chain(System):
         names: Sequence[str] | None = None,
     ) -> None:
         place = "revchain.Chain"
+        if unnamed or length is None:
+            found = ", ".join(map(shown, unnamed))
+            wrong = f"numbers without a name: {found}" if unnamed else "no length"
+            raise TypeError(f"{place}: give quantities by name, such as Chain(mass=[1, 3], length=[0.5, 0.5]), got {wrong}")
         by_mass, _ = mass_or_weight(place, mass, weight)
         columns = link_arrays(
             place,
@@ -255,8 +261,8 @@ class Chain(System):
 
     @property
     def taper(self) -> float | None:
-        """Exponent of the line density, if `tapered` made the chain; None for any other chain, including one derived "
-        "from it."""
+        """Exponent of the line density, if `tapered` made the chain; None for any other chain, including one derived
+        from it."""
         return self._compiled.taper
 
     @property
@@ -313,8 +319,8 @@ class Chain(System):
 
     @property
     def pendulum_length(self) -> Floats:
-        """Length of the equivalent simple pendulum of each link, m, shape (N,); infinite if the centre of gravity is "
-        "at the upper pin; read-only."""
+        """Length of the equivalent simple pendulum of each link, m, shape (N,); infinite if the centre of gravity is
+        at the upper pin; read-only."""
         return self._column(self._compiled.pendulum_length)
 
     @property
