@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Conical heights of many chains in one call."""
+"""`conical_heights`: the conical heights of many chains of the same number of links in one call."""
 
 from __future__ import annotations
 

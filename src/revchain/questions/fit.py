@@ -162,7 +162,7 @@ class _Model:
             return np.full(len(self.number), np.nan)
 
     def slopes(self, free: Floats) -> Floats:
-        """Derivatives of `off`, shape (m, p)."""
+        """The derivatives of the deviations `off`, shape (m, p): m measurements, p data."""
         _, there = self.at(free)
         rates = self._rates(there)
         columns = []
@@ -292,7 +292,7 @@ def _fitted(model: _Model, free: Floats, converged: bool, known: _Known, deviati
 
 
 def _inner(datum: Datum, value: float) -> float:
-    """Derivative of a value by its variable."""
+    """The derivative of a datum with respect to the variable that the fit changes."""
     return datum.typical if datum.floor is None else value - datum.floor
 
 
@@ -316,7 +316,7 @@ def _start(datum: Datum, given: Any) -> float:
 
 
 def _varied(vary: Any) -> tuple[list[Any], list[Any]]:
-    """Paths, and their start values if given."""
+    """The paths of the data to vary, with their start values where the caller gives them."""
     if isinstance(vary, Mapping):
         paths = list(vary)
     elif isinstance(vary, str):

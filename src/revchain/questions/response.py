@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Small motions forced by a moving support."""
+"""`response`: the small motions that a moving support forces on a system."""
 
 from __future__ import annotations
 

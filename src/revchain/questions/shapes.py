@@ -225,7 +225,7 @@ def steady_shapes(
 def _turning(
     place: str, system: System, conical_height: float | None, angular_speed: float | None, gravity: float
 ) -> tuple[float, float, float]:
-    """Gravity, conical height and speed."""
+    """Return gravity, the conical height and the speed, of which the caller gives one."""
     if getattr(system, "weightless", False):
         if conical_height is not None:
             raise ValueError(
@@ -431,7 +431,7 @@ def require_span(place: str, held: Held) -> None:
 
 
 def rotation(place: str, direction: int) -> int:
-    """`direction`; a ValueError unless it is 1 or -1."""
+    """Return `direction`; raise a ValueError unless it is 1 or -1."""
     if integer(place, "direction", direction) not in (1, -1):
         raise ValueError(f"{place}: direction must be 1 or -1, got {shown(direction)}")
     return int(direction)

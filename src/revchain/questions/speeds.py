@@ -13,7 +13,7 @@ from .modes import modes
 
 
 class Speeds(NamedTuple):
-    """Speeds of some modes."""
+    """The speeds of some modes as found, with their numbers and derivatives."""
 
     speed: Floats  # rad/s, signed
     bound: Floats  # of their relative errors

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Free motion of small amplitude after release."""
+"""`swing`: the free motion of small amplitude after a release."""
 
 from __future__ import annotations
 

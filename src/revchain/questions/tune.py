@@ -364,7 +364,7 @@ def _root(found: Callable[[float], tuple[float, float]], left: float, right: flo
 
 
 def _range(datum: Datum) -> tuple[float, float]:
-    """The default range of a search."""
+    """Return the range that a search covers if the caller gives none."""
     if datum.ceiling < np.inf:
         return min(0.0, datum.present), max(datum.ceiling, datum.present)
     floor = datum.floor or 0.0

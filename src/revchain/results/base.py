@@ -109,7 +109,7 @@ class Field(Generic[Value]):
         return result.__dict__.setdefault(self.name, found)  # two threads that compute it at once get one object
 
     def column(self, result: Any) -> Column:
-        """The column of a result."""
+        """Return the column of a printed table that the field gives for a result."""
         values = getattr(result, self.name)
         heading = self.heading(result) if callable(self.heading) else self.heading or ""
         unit, shown = self.unit, None if self.shown is None else self.shown(result)
@@ -180,7 +180,7 @@ class Result(Unchangeable):
         return result
 
     def _found(self) -> Any:
-        """The compiled result."""
+        """Return the compiled result, which is made from the parts if the result was loaded."""
         core = self.__dict__["_core"]
         if core is None:
             core = self.__dict__["_core"] = self._from_parts()
@@ -191,7 +191,7 @@ class Result(Unchangeable):
         raise NotImplementedError
 
     def _is_good(self) -> bool:
-        """Whether everything was found and proved."""
+        """Return whether everything was found and proved: what `bool(result)` is."""
         return not self._good or getattr(self, self._good, True) in (True, "success", "found")
 
     def _left_out(self) -> Collection[str]:
@@ -342,7 +342,7 @@ class Result(Unchangeable):
 
 
 class Listed(Sequence[Item]):
-    """A sequence of the results in `_items`."""
+    """The base of results that are sequences of other results, which the field `_items` holds."""
 
     __slots__ = ()
     _items: Any
@@ -361,7 +361,7 @@ class Listed(Sequence[Item]):
         return self.count(value) > 0
 
     def count(self, value: object) -> int:
-        """Number of results equal to `value`."""
+        """Return the number of results that are equal to `value`."""
         return sum(value is item or (type(value) is type(item) and value == item) for item in self)
 
     def index(self, value: object, start: int = 0, stop: int | None = None) -> int:
@@ -378,7 +378,7 @@ class Listed(Sequence[Item]):
 
 
 class Results(Result, Listed[Item]):
-    """A list of results, with fields of its own."""
+    """The base of sequences of results that have fields of their own, such as a status."""
 
     __slots__ = ()
     _items: Field[tuple[Any, ...]] = Field("The results.")
@@ -404,7 +404,7 @@ _HOLD = (np.ndarray, list, tuple, dict)  # types that may hold writable arrays
 
 
 def frozen(value: Any) -> Any:
-    """`value` with its arrays made read-only."""
+    """Return `value` with its arrays made read-only."""
     if isinstance(value, np.ndarray):
         return read_only(value) if value.flags.writeable else value
     if type(value) in (list, tuple):

@@ -441,6 +441,6 @@ def _each(shapes: list[Any], name: str) -> list[Any]:
 
 
 def branches_made(found: Any, system: Any, gravity: float, direction: int) -> Branches:
-    """The list of compiled branches."""
+    """Make `Branches` from a list of compiled branches."""
     items = tuple(branch_made(each, system, gravity, direction) for each in found.branches)
     return Branches._made(found, _items=items, system=system, gravity=gravity, direction=direction)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Force diagrams of steady shapes."""
+"""`ForceDiagram`: the forces on the links of a steady shape as a closed polygon."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .base import Field, Result
 
 
 def _component(name: str, k: int) -> Field[Floats]:
-    """A column of the table of vectors."""
+    """Return the field with one component of all vectors of the diagram."""
 
     def compute(diagram: ForceDiagram) -> Floats:
         vectors: Floats = getattr(diagram, name)

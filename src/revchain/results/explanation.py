@@ -90,7 +90,7 @@ class Explanation(Result, row="method", title="{_heading}", good="meets_toleranc
 
 
 def time_text(seconds: float) -> str:
-    """A time as text with a suitable unit."""
+    """Return a time in seconds as text with a suitable unit."""
     for unit, size in (("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9)):
         if seconds >= size or unit == "ns":
             return f"{seconds / size:.3g} {unit}"

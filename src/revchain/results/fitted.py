@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The result of `revchain.fit`."""
+"""`Fitted`: the result of `revchain.fit`."""
 
 from __future__ import annotations
 
@@ -100,7 +100,7 @@ class Fitted(Result, row="datum", title="Fitted: {summary}", notes=("{_lines}",)
     summary: Field[str] = Field("How many data were fitted to how many speeds, in words.", lambda f: f._words())
 
     def __getitem__(self, path: str) -> float:
-        """The value of a datum by its path."""
+        """Return the fitted value of the datum with this path."""
         if path not in self.vary:
             raise KeyError(f"path must be one of {', '.join(self.vary)}, got {shown(path)}")
         return float(self.value[self.vary.index(path)])

@@ -120,7 +120,7 @@ class _HeldChain:
 
 
 def held_shape_sensitivity(shape: SteadyShape) -> Sensitivity:
-    """See `SteadyShape.sensitivity`."""
+    """Return the derivatives of a held shape; described by `SteadyShape.sensitivity`."""
     chain = _HeldChain(shape)
     at, n = chain.hanging, chain.hanging.size
     refuse_beyond_memory("revchain.SteadyShape.sensitivity", "the number of links", n, 120 * n)

@@ -9,5 +9,5 @@ KINDS: dict[str, Any] = {}  # each class enters itself when it is defined
 
 
 def restored(kind: Any, state: dict[str, Any]) -> Any:
-    """Rebuild a pickled result."""
+    """Return a result of a class from its state, as a pickle stores it."""
     return kind._made(None, **state)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The results of `revchain.modes`."""
+"""`Modes`, the result of `revchain.modes`, with its proof and the other solutions of a rig."""
 
 from __future__ import annotations
 

@@ -240,7 +240,7 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
 
     @property
     def _turns(self) -> bool:
-        """Whether momentum turns the plane of the swing."""
+        """Return whether the momentum of flywheels turns the plane of the swing."""
         return self.offset.dtype.kind == "c"
 
     @property

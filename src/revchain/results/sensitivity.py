@@ -228,14 +228,14 @@ class Uncertainty(Result, row="mode", title="Standard deviations"):
 
 
 def by_datum(of: str, modes: Any, value: dict[str, Any], **more: Any) -> Sensitivity:
-    """Numbers by datum for each mode."""
+    """Return a `Sensitivity` of modes from their derivatives by the name of the datum."""
     way = modes.direction if modes.system._kind == "rig" else None
     given = {"error_bound": None, "relative": None, **more}
     return Sensitivity._made(None, of=of, row="mode", number=modes.number, direction=way, value=value, **given)
 
 
 def sensitivity_of_modes(modes: Modes) -> Sensitivity:
-    """See `Modes.sensitivity`."""
+    """Return the derivatives of modes; described by `Modes.sensitivity`."""
     system, kind = modes.system, modes.system._kind
     if kind == "held chain":
         raise UnavailableError(

@@ -197,7 +197,7 @@ def changes_of(at: Balance) -> dict[str, Change]:
 
 
 def _rigged(at: Balance, rig: Rig) -> dict[str, Change]:
-    """The changes by the other data of a rig."""
+    """Return the changes of a shape by the data of a rig that a chain does not have."""
     fluid, turns, none = slice(at.size, None), rig.fluid == "turning", np.zeros((at.size, 1))
     return {
         "momentum": Change(kappa=at.speed * np.eye(at.size)),
@@ -241,7 +241,7 @@ def named(given: dict[str, Floats], chain: Chain, single: tuple[str, ...]) -> No
 
 
 def shape_sensitivity(shape: SteadyShape) -> Sensitivity:
-    """See `SteadyShape.sensitivity`."""
+    """Return the derivatives of a hanging shape; described by `SteadyShape.sensitivity`."""
     rig = shape.system if shape.system._kind == "rig" else None
     chain = rig.chain if rig is not None else shape.system
     n = chain.size

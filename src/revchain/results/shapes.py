@@ -168,7 +168,7 @@ def forced(name: str) -> Callable[[Any], Any]:
 
 
 def in_space(x: ArrayLike = 0.0, y: ArrayLike = 0.0, z: ArrayLike = 0.0) -> Floats:
-    """Vectors from their components."""
+    """Return vectors in space, made of their components along the three axes."""
     return np.stack(np.broadcast_arrays(*(np.asarray(each, np.float64) for each in (x, y, z))), axis=-1)
 
 
@@ -736,7 +736,7 @@ class SteadyShapes(Results[SteadyShape], Moving, row="shape", title="{_heading}"
 
 
 def at_speed(speed: float) -> str:
-    """In headings."""
+    """Return a speed in rad/s and rpm as words for a heading."""
     return f" at {digits(speed, 6)} rad/s ({digits(speed * 30 / math.pi, 4)} rpm)"
 
 

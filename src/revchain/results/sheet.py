@@ -52,7 +52,7 @@ class Column(NamedTuple):
     unit: str = ""
 
     def texts(self, rows: Any) -> list[str]:
-        """The cells of some rows in a printed table."""
+        """Return the texts in the cells of some rows of a printed table."""
         values = self.values if self.shown is None else self.shown
         if isinstance(values, np.ndarray) and values.ndim == 1:
             values = values.tolist()
@@ -138,7 +138,7 @@ def cells(sheet: Sheet) -> tuple[list[str], list[list[str]], list[str]]:
 
 
 def as_text(sheet: Sheet) -> str:
-    """The table that a prompt shows."""
+    """Return the table as text, as a prompt shows it."""
     headings, rows, notes = cells(sheet)
     padded, table = [], zip(headings, *rows, strict=True)
     for column in sheet.columns if rows else []:
@@ -150,7 +150,7 @@ def as_text(sheet: Sheet) -> str:
 
 
 def as_html(sheet: Sheet) -> str:
-    """The table that a notebook shows."""
+    """Return the table as HTML, as a notebook shows it."""
     from html import escape
 
     headings, rows, notes = cells(sheet)
@@ -164,12 +164,12 @@ def as_html(sheet: Sheet) -> str:
 
 
 def as_dict(sheet: Sheet) -> dict[str, Any]:
-    """Facts, then a dictionary for each row."""
+    """Return the facts as a dictionary, with a list of one dictionary for each row."""
     return {**plain(sheet.facts), f"{sheet.row}s": as_rows(sheet)}
 
 
 def as_rows(sheet: Sheet) -> list[dict[str, Any]]:
-    """A dictionary for each row."""
+    """Return one dictionary for each row of the table."""
     columns = {column.name: plain(column.values) for column in sheet.columns}
     return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
 

@@ -32,7 +32,7 @@ SEAL = b"revchain"  # at the end of a file, followed by the CRC-32 of all bytes 
 
 
 def save(result: Any, path: str | os.PathLike[str]) -> None:
-    """See `Result.save`."""
+    """Write a result to a file; described by `Result.save`."""
     ending = _ending(f"revchain.{type(result).__name__}.save", path)
     arrays: dict[str, np.ndarray[Any, Any]] = {}
     if ending == ".nc":

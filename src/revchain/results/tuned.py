@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The result of `revchain.tune`."""
+"""`Tuned`: the result of `revchain.tune`."""
 
 from __future__ import annotations
 

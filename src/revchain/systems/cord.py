@@ -104,7 +104,7 @@ class Cord(System):
 
     @property
     def length(self) -> float:
-        """Length, m."""
+        """The length of the cord, m."""
         return self._compiled.length
 
     @property
@@ -200,12 +200,12 @@ class Cord(System):
 
     @property
     def size(self) -> int:
-        """0: a cord has no links."""
+        """The number of links, which is 0 for a cord."""
         return 0
 
     @property
     def mode_count(self) -> None:
-        """None: a cord has infinitely many modes."""
+        """The number of modes, which is None because a cord has infinitely many."""
         return None
 
     def _under(self, gravity: float) -> _core.Cord:

@@ -60,7 +60,7 @@ class Datum:
 
     @property
     def quantity(self) -> str:
-        """Name of the quantity, which decides the unit."""
+        """The name of the quantity, which decides the unit of the datum."""
         return self.path.rpartition(".")[2]
 
     @property

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Optional packages, imported when first needed."""
+"""Imports of optional packages when they are first needed, with a message if one is missing."""
 
 from __future__ import annotations
 

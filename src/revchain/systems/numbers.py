@@ -131,7 +131,7 @@ def word(place: str, name: str, value: object, words: Iterable[str], note: str =
 
 
 def text(place: str, name: str, value: object) -> str:
-    """`value` if it is text; a TypeError otherwise."""
+    """Return `value` if it is text; raise a TypeError otherwise."""
     if not isinstance(value, str):
         raise TypeError(f"{place}: {name} must be text, got {shown(value)}")
     return value
@@ -245,7 +245,7 @@ def positives(place: str, **given: ArrayLike) -> list[Floats]:
 
 
 def numbers(arrays: Iterable[NDArray[Any]]) -> Iterator[Any]:
-    """The arrays; those without an axis as numbers."""
+    """Return the arrays, those without an axis as numbers."""
     return (array[()] for array in arrays)
 
 
@@ -277,7 +277,7 @@ def shown(value: object, width: int = 60) -> str:
 
 
 def read_only(array: NDArray[Scalar]) -> NDArray[Scalar]:
-    """A view of `array` that cannot be written to."""
+    """Return a view of `array` that cannot be written to."""
     view = array.view()
     view.flags.writeable = False
     return view

@@ -30,7 +30,7 @@ FLUIDS = ("still", "turning")
 
 
 class _Fitting(Unchangeable):
-    """A fitting of a rig: numbers by name."""
+    """The base of what is fitted to the links of a rig: their numbers by name."""
 
     __slots__ = ("_given",)
     _given: dict[str, Any]
@@ -139,7 +139,7 @@ class Support(_Fitting):
 
     @property
     def carriage(self) -> float:
-        """Mass or weight that moves with the pin."""
+        """The mass or weight that moves with the pin of the support."""
         return float(self._given.get("mass", self._given.get("weight", 0.0)))
 
     def _words(self, unit: str) -> str:
@@ -568,7 +568,7 @@ class Rig(System):
         return f"Rig of a chain of {links}: {', '.join(with_what + self._extras()) or 'nothing added'}"
 
     def _state(self) -> tuple[Any, ...]:
-        """The parts that make up the rig."""
+        """Return the parts that make up the rig, for pickles and copies with one part changed."""
         fittings = (self.support, self.flywheels, self.displaced)
         given = tuple(None if fitting is None else dict(fitting._given) for fitting in fittings)
         return self.chain, *given, self.fluid, self._inverted

@@ -33,7 +33,7 @@ class System(Unchangeable):
 
     @property
     def _base(self) -> Any:
-        """The chain or cord in the system."""
+        """The chain or cord in the system, which is the system itself for a plain one."""
         return self
 
     @property
@@ -178,7 +178,7 @@ class System(Unchangeable):
 
 
 def restored(kind: str, state: Any) -> System:
-    """Rebuild a pickled system."""
+    """Return a system from the name of its class and its state, as a pickle stores them."""
     return System._kinds[kind]._from_state(state)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Classes whose attributes are set once."""
+"""`Unchangeable`: the base of classes whose attributes cannot be changed."""
 
 from __future__ import annotations
 

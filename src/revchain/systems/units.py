@@ -68,7 +68,7 @@ def _numbers_of(text: Any) -> Any:
 
 
 def are_there(value: Any) -> bool:
-    """Whether a value contains a number with a unit."""
+    """Return whether a value contains a number with a unit."""
     value = unpacked(value)
     if isinstance(value, str) or hasattr(value, "dimensionality"):
         return True
@@ -116,7 +116,7 @@ def si_value(text: str, quantity: str) -> float:
 
 
 def _converted(given: Any, quantity: str, text: str = "") -> Any:
-    """A pint quantity in SI units."""
+    """Return the numbers of a pint quantity in SI units, of the quantity that is wanted."""
     unit, kind, example = SI[quantity]
     if not given.is_compatible_with(unit or "dimensionless"):
         hint = "; give it as mass" if quantity.endswith("weight") and given.is_compatible_with("kg") else ""
