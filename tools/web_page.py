@@ -23,6 +23,12 @@ import revchain as rc
 
 ROOT = Path(__file__).resolve().parent.parent
 WEB = ROOT / "web"
+STORIES = json.loads((WEB / "stories.json").read_text(encoding="utf-8"))  # a sentence and two things to try for each
+# What a link is drawn as if its name has this word.
+FORMS = {
+    "bell": "bell", "jar": "jar", "man": "person", "chair": "seat", "load": "crate", "hook": "hook", "gyrostat": "disc",
+}  # fmt: skip
+LOWEST = {"swing_carousel": "seat"}  # forms of free ends that have no name
 SCRIPTS = ("state.js", "client.js", "draw.js", "controls.js", "page.js")
 # Scenes that the page shows, in its order. It has no fluids, no held ends and no 10,000 links.
 PRESETS = [
@@ -49,6 +55,11 @@ PRESETS = [
 ]
 
 
+def form_of(name: str) -> str:
+    """The form of a link by its name; empty for a bar with a ball."""
+    return next((form for word, form in FORMS.items() if word in name.split()), "")
+
+
 def preset(name: str) -> dict[str, Any]:
     """The scene as the state of the page: parts of equal links, lowest first."""
     scene = rc.load_scene(ROOT / f"examples/scenes/{name}.toml")
@@ -60,17 +71,23 @@ def preset(name: str) -> dict[str, Any]:
     heavy = chain.mass if chain.by_mass else chain.weight
     columns = (heavy, chain.length, chain.centroid, chain.radius_of_gyration, rig.inverted, momentum * gravity, axial)
     rows = list(zip(*(np.broadcast_to(column, chain.size).tolist() for column in columns), strict=True))
+    of_links = [form_of(each) for each in chain.names or [""] * chain.size]
+    of_links[0] = LOWEST.get(name, of_links[0])
     parts: list[list[float]] = []
-    for row in rows:
-        if parts and parts[-1][1:] == [float(x) for x in row]:
+    forms: list[str] = []
+    for row, form in zip(rows, of_links, strict=True):
+        if parts and parts[-1][1:] == [float(x) for x in row] and forms[-1] == form:
             parts[-1][0] += 1
         else:
             parts.append([1, *map(float, row)])
+            forms.append(form)
     stiffness = None if np.isinf(support.stiffness) else support.stiffness
     return {
         "name": name,
         "title": scene.title,
+        **STORIES[name],
         "parts": parts,
+        "forms": forms,
         "gravity": gravity,
         "radius": support.radius,
         "stiffness": stiffness,

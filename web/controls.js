@@ -17,8 +17,9 @@ function svgElement(viewBox) {
     return made;
 }
 
-/** A slider and a field for `owner[key]`. `scale` takes the slider's 0 ... 1000 to the number and back. */
-function slider(owner, key, {label, unit = '', scale, least = -Infinity, main = false, id = '', set}) {
+/** A slider and a field for `owner[key]`. `scale` takes the slider's 0 ... 1000 to the number and back; the field shows
+ * the number times what `times` returns, in `unit`, a word or an element. */
+function slider(owner, key, {label, unit = '', scale, least = -Infinity, main = false, id = '', set, times = () => 1}) {
     const range = element('input', {type: 'range', min: 0, max: 1000, step: 'any', id, ariaLabel: label});
     const ariaLabel = `${label}, as a number`;
     const field = element('input', {type: 'number', step: 'any', className: 'number', ariaLabel});
@@ -30,22 +31,22 @@ function slider(owner, key, {label, unit = '', scale, least = -Infinity, main = 
     const show = () => {
         const value = owner[key] ?? 0;
         range.value = scale.to(value);
-        range.setAttribute('aria-valuetext', `${digits(value)} ${unit}`);
-        if (document.activeElement !== field) field.value = digits(value, 6);
+        range.setAttribute('aria-valuetext', `${digits(value * times())} ${unit.value ?? unit}`);
+        if (document.activeElement !== field) field.value = digits(value * times(), 6);
     };
     range.oninput = () => {
         put(scale.from(Number(range.value)));
         show();
     };
     field.onchange = () => {
-        const value = Number(field.value);
+        const value = Number(field.value) / times();
         if (field.value !== '' && value >= least) put(value);
         field.blur();
         show();
     };
     const name = element('label', {textContent: label, htmlFor: id});
     const className = `slider${main ? ' main' : ''}`;
-    const box = element('div', {className}, name, element('span', {}, field, ` ${unit}`), range);
+    const box = element('div', {className}, name, element('span', {}, field, ' ', unit), range);
     show();
     return {box, show};
 }
@@ -66,9 +67,20 @@ function logarithmic(x) {
 
 let speedSlider = null;
 function buildSliders() {
+    const options = Object.keys(UNITS).map((name) => element('option', {value: name, textContent: name}));
+    const unit = element('select', {ariaLabel: 'Unit of speed'}, ...options);
+    unit.value = state.unit;
+    unit.onchange = () => {
+        state.unit = unit.value;
+        speedSlider.show();
+        modesShown = false;
+        dirty = true;
+        saveLink();
+    };
     speedSlider = slider(state, 'speed', {
         label: 'Speed',
-        unit: 'rad/s',
+        unit,
+        times: () => UNITS[state.unit],
         main: true,
         id: 'speed',
         least: 0,
@@ -162,6 +174,7 @@ function partBox(part, index) {
     const remove = element('button', {type: 'button', textContent: 'Remove'});
     remove.onclick = () => {
         state.parts.splice(index, 1);
+        state.forms.splice(index, 1);
         buildParts();
         changed();
     };

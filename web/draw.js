@@ -23,14 +23,21 @@ function heightsOf(links, offset) {
     return height;
 }
 
-/** Where the mass of each link sits, as [offset, height, size 0 to 1]; none for what is drawn as a plain line. */
-function massesOf(links, {offset, height}) {
+/** What the stage draws of each link, lowest first. */
+function solidsOf(links, forms) {
     const heaviest = Math.max(...links.map((link) => link[PART.mass]));
-    return links.flatMap((link, m) => {
-        if (kindOf(link) === 'rod' || link[PART.mass] === 0) return [];
-        const down = link[PART.centroid] / link[PART.length],
-            between = (list) => list[m + 1] + down * (list[m] - list[m + 1]);
-        return [[between(offset), between(height), Math.cbrt(link[PART.mass] / heaviest)]];
+    return links.map((link, m) => {
+        const rod = (Math.sqrt(3) * link[PART.gyration]) / link[PART.length];
+        return {
+            form: forms[m] || (link[PART.momentum] || link[PART.axial] ? 'wheel' : ''),
+            size: Math.cbrt(link[PART.mass] / heaviest),
+            along: link[PART.centroid] / link[PART.length],
+            rod: rod < 1 ? rod : 0, // what is longer is no rod
+            gyration: link[PART.gyration],
+            ahead: Math.sign(link[PART.momentum] + link[PART.axial]) || 1,
+            stands: Boolean(link[PART.stands]),
+            plain: kindOf(link) === 'rod',
+        };
     });
 }
 
@@ -51,14 +58,16 @@ function stageIn(element) {
     }
 }
 
-/** The chain `figure` {links, offset, height, halfWaves} on the stage, with its support and its arm. */
-function putOnStage(stage, arm, figure, afresh) {
+/** The chain `figure` {links, forms, offset, height, halfWaves} on the stage, with its support and its arm. */
+function putOnStage(stage, {radius, carriage, stiffness}, figure, speed, afresh) {
     const pins = Array.from(figure.offset, (r, i) => [r, figure.height[i]]);
     const [floor, top] = [Math.min(0, ...figure.height), Math.max(0, ...figure.height)];
     const shown = viewer.chainFigure({
         pins,
-        bodies: massesOf(figure.links, figure),
-        arm,
+        links: solidsOf(figure.links, figure.forms),
+        arm: radius,
+        carriage: stiffness === null ? 0 : carriage,
+        turns: Math.sign(speed) || 1,
         top,
         floor,
         colour: getComputedStyle(document.documentElement).getPropertyValue(waveName(figure.halfWaves)).trim(),
@@ -85,7 +94,7 @@ function drawSide(svg, figure) {
 
 const DIAGRAM = {width: 430, height: 270, left: 46, right: 418, top: 12, bottom: 234}; // as in the element's viewBox
 
-/** Positions in the diagram: from speeds and radii to units of the picture and back. */
+/** Positions in the diagram: from speeds in rad/s and radii to units of the picture and back. */
 function diagramScale(most, reach) {
     const {left, right, top, bottom} = DIAGRAM;
     return {
@@ -109,20 +118,21 @@ function branchCurves({speed, tip, halfWaves}, {x, y}) {
 }
 
 /** Distance of the free end from the axis against speed. Filled dots: stable shapes; hollow ones: others. */
-function drawDiagram(svg, {branches, shapes, selected, speed, top, reach}) {
+function drawDiagram(svg, {branches, shapes, selected, speed, top, reach, unit}) {
     const scale = diagramScale(top, reach),
         {x, y} = scale,
         {left, right, bottom, width, height} = DIAGRAM;
     let text = '';
-    for (const tick of viewer.ticks(0, top)) {
-        text += curve([[x(tick), y(0)], [x(tick), y(reach)]], 'var(--line)');
-        text += label([x(tick), bottom + 16], tick, 'text-anchor="middle"');
+    for (const tick of viewer.ticks(0, top * UNITS[unit])) {
+        const at = x(tick / UNITS[unit]);
+        text += curve([[at, y(0)], [at, y(reach)]], 'var(--line)');
+        text += label([at, bottom + 16], tick, 'text-anchor="middle"');
     }
     for (const tick of viewer.ticks(0, reach)) {
         text += curve([[left, y(tick)], [right, y(tick)]], 'var(--line)');
         text += label([left - 6, y(tick) + 4], tick, 'text-anchor="end"');
     }
-    text += label([(left + width) / 2, height - 5], 'speed (rad/s)', 'text-anchor="middle"');
+    text += label([(left + width) / 2, height - 5], `speed (${unit})`, 'text-anchor="middle"');
     const upright = `text-anchor="middle" transform="translate(11 ${height / 2 - 10}) rotate(-90)"`;
     text += label([0, 0], 'free end from axis (m)', upright);
     text += `<svg x="0" y="0" width="${right}" height="${bottom}">`; // which cuts off what goes farther

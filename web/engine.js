@@ -109,10 +109,11 @@ const tasks = {
             branches = [];
         for (let mode = 1; mode <= request.branches; ++mode)
             branches.push(readBranch(ask('find_branch', mode, request.top)));
-        reply({diagram: {branches, complete: false}});
-        if (links > request.proofLinks) return;
+        const tries = links <= request.proofLinks;
+        reply({diagram: {branches, complete: false, tries}});
+        if (!tries) return;
         const read = ask('find_branches', request.top, request.lists, request.listBudget, request.proofBudget);
-        const diagram = {complete: Boolean(read.next()), branches: []};
+        const diagram = {complete: Boolean(read.next()), branches: [], tried: true};
         for (let left = read.next(); left > 0; --left) diagram.branches.push(readBranch(read));
         reply({diagram});
     },

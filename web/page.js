@@ -10,7 +10,7 @@ const VERDICT_WORDS = {
     undecided: 'stability open',
 };
 /** Where questions take too long for a slider: links of a chain whose shapes are listed and whose diagram is proved. */
-const REQUEST = {mostLinks: 200, budget: 4e5, proofLinks: 10, lists: 8, listBudget: 1e6, proofBudget: 3e6};
+const REQUEST = {mostLinks: 200, budget: 4e5, proofLinks: 24, lists: 16, listBudget: 3e6, proofBudget: 1e6}; // as in Python
 
 let state,
     links,
@@ -35,7 +35,10 @@ let angle = 0,
 function changed({speed = false} = {}) {
     links = partOfLinks(state);
     if (!speed) {
-        state.name = null;
+        if (state.name) {
+            state.name = null;
+            showStory();
+        }
         $('preset').value = '';
         modesStale = true;
     } else if (state.select?.startsWith('m')) {
@@ -49,7 +52,7 @@ function changed({speed = false} = {}) {
 
 function ask() {
     const count = links.length;
-    if (now) now.ask({task: 'now', ...structuredClone(state), ...REQUEST, modes: modesStale ? Math.min(count, 12) : 0});
+    if (now) now.ask({task: 'now', ...structuredClone(state), ...REQUEST, modes: modesStale ? Math.min(count + 1, 12) : 0});
 }
 
 function askDiagram() {
@@ -68,12 +71,13 @@ function reachOfSpeeds() {
 }
 
 function heardModes(part, request) {
-    modes = {...part, links: partOfLinks(request)};
+    modes = {...part, links: partOfLinks(request), forms: formOfLinks(request)};
     modesStale = modesShown = false;
     top = reachOfSpeeds();
     if (state.speed === null) {
         const first = modes.modes.find((mode) => mode.speed > 0);
-        state.speed = Number((1.15 * (first?.speed ?? top / 4)).toPrecision(3));
+        const factor = UNITS[state.unit];
+        state.speed = Number((1.15 * factor * (first?.speed ?? top / 4)).toPrecision(3)) / factor;
         now.ask({...request, modes: 0, speed: state.speed});
         saveLink();
     }
@@ -84,12 +88,13 @@ function heardModes(part, request) {
 function heard({part, time, request}) {
     if (part.modes) heardModes(part.modes, request);
     if ('shapes' in part) {
-        const links = partOfLinks(request);
+        const of = {links: partOfLinks(request), forms: formOfLinks(request)};
         shapes = part.shapes;
-        for (const shape of shapes?.shapes ?? []) shape.links = links;
+        for (const shape of shapes?.shapes ?? []) Object.assign(shape, of);
         problem = '';
     }
     if (part.diagram) diagram = {...part.diagram, time};
+    $('proving').hidden = !(diagram?.tries && later?.busy);
     if (part.problem) {
         problem = part.problem;
         if (request.task === 'now') shapes = null;
@@ -100,19 +105,20 @@ function heard({part, time, request}) {
 
 // What is selected ---------------------------------------------------------------------------------------------------
 
-/** The figure of a mode: a small motion is drawn with a sixth of the length, or as far as no link leans by 35 degrees. */
+/** The figure of a mode: heights of the straight chain, offsets of a quarter of its length at most; where links are few,
+ * none leans by more than 45 degrees. */
 function figureOf(mode) {
-    const {links} = modes,
+    const {links, forms} = modes,
         length = links.reduce((sum, link) => sum + link[PART.length], 0);
     const lean = links.map((link, m) => Math.abs(mode.offset[m] - mode.offset[m + 1]) / link[PART.length]);
-    const size = Math.min(length / 6, 0.57 / Math.max(...lean));
+    const size = Math.min(length / 4, links.length > 12 ? Infinity : 1 / Math.max(...lean));
     const offset = mode.offset.map((y) => y * size);
-    return {...mode, links, offset, height: heightsOf(links, offset), halfWaves: mode.nodes.length + 1, isMode: true};
+    return {...mode, links, forms, offset, height: heightsOf(links, new Float64Array(offset.length)), halfWaves: mode.nodes.length + 1, isMode: true};
 }
 
 const straight = () => {
     const offset = new Float64Array(links.length + 1).fill(state.radius);
-    return {links, offset, height: heightsOf(links, offset), halfWaves: 1, isStraight: true};
+    return {links, forms: formOfLinks(state), offset, height: heightsOf(links, offset), halfWaves: 1, isStraight: true};
 };
 
 /** A shape of the new list that is nearest to the one selected before: with as many half waves, if there is one. */
@@ -156,7 +162,7 @@ function write(where, text) {
 function showCards(list, figures, describe, isChosen, key) {
     while (list.children.length > figures.length) list.lastChild.remove();
     while (list.children.length < figures.length) {
-        const lines = [element('b'), ...Array.from({length: 3}, () => element('small'))];
+        const lines = [element('b'), ...Array.from({length: 2}, () => element('small'))];
         const picture = svgElement(`0 0 ${CARD.join(' ')}`);
         const card = element('button', {type: 'button', className: 'card'}, picture, ...lines);
         const index = list.children.length + 1;
@@ -171,20 +177,22 @@ function showCards(list, figures, describe, isChosen, key) {
     });
 }
 
+/** A speed in the unit that was chosen, or in another one. */
+const inUnit = (speed, n = 4, unit = state.unit) => `${digits(speed * UNITS[unit], n)} ${unit}`;
+
 function showShapes() {
     const list = shapes?.shapes ?? [];
     const said = $('shapes-said');
     if (problem) write(said, 'No shapes: see the message above.');
-    else if (!shapes) write(said, 'Computing …');
-    else if (!list.length && shapes.complete)
-        write(said, 'At this speed the chain hangs straight: proved, it has no other shape.');
+    else if (!shapes) write(said, links.length > REQUEST.mostLinks ? 'Too many links for this page.' : 'Computing …');
+    else if (!list.length && shapes.complete) write(said, 'None: at this speed the chain hangs straight.');
     else
         write(
             said,
-            `${plural(list.length, 'shape')} at ${digits(state.speed)} rad/s. ${
+            `${plural(list.length, 'shape')} at ${inUnit(state.speed)}${
                 shapes.complete
-                    ? 'Proved: there are no others.'
-                    : 'There may be others: the search ended at its limit, or the speed is that of a mode.'
+                    ? ', and it is proved that there are no others.'
+                    : '. There may be others: the search ended at its limit, or the speed is that of a mode.'
             }${list.length > MOST_CARDS ? ` The first ${MOST_CARDS} are drawn.` : ''}`,
         );
     showCards(
@@ -192,8 +200,7 @@ function showShapes() {
         list.slice(0, MOST_CARDS),
         (shape) => [
             plural(shape.halfWaves, 'half wave'),
-            `free end ${digits(Math.abs(shape.offset[0]))} m`,
-            `error ≤ ${shortBound(shape.bound)} rad`,
+            `free end ${digits(Math.abs(shape.offset[0]), 3)} m`,
             VERDICT_WORDS[shape.verdict] ?? '',
         ],
         (shape) => shape === chosen,
@@ -204,19 +211,19 @@ function showShapes() {
 function showModes() {
     if (!modes) return;
     const {forward, backward, other, growth} = modes;
-    const sides = backward ? `${forward} forward and ${backward} backward modes` : plural(forward, 'mode');
+    const sides = backward ? `${forward} forward and ${backward} backward` : `${forward} in all`;
     const growing =
         growth > 0 ? ` Straight, the chain is unstable: a disturbance grows by a factor of e in ${digits(1 / growth, 3)} s.` : '';
-    $('modes-said').textContent =
-        `${sides}${other ? `, ${other} other solutions` : ''}.${growing} Bounds are relative${modes.complete ? ' and proved' : ''}.`;
+    const others = other ? `, and ${plural(other, 'motion')} that ${other === 1 ? 'grows or dies' : 'grow or die'} away` : '';
+    $('modes-said').textContent = `${sides}${others}.${growing}`;
+    const second = state.unit === 'rpm' ? 'rad/s' : 'rpm';
     showCards(
         $('mode-list'),
         modes.modes.map(figureOf),
         (mode) => [
-            `${digits(Math.abs(mode.speed), 5)} rad/s`,
-            `${digits((Math.abs(mode.speed) * 30) / Math.PI)} rpm${mode.speed < 0 ? ' backward' : ''}`,
-            `error ≤ ${shortBound(mode.speedBound)}`,
-            `mode ${mode.number}, ${plural(mode.nodes.length, 'node')}`,
+            `Mode ${mode.number}${mode.speed < 0 ? ' backward' : ''}`,
+            inUnit(Math.abs(mode.speed)),
+            `${inUnit(Math.abs(mode.speed), 4, second)}; ${plural(mode.nodes.length, 'node')}`,
         ],
         (mode, i) => state.select === `m${i + 1}`,
         'm',
@@ -237,9 +244,7 @@ function showDiagram() {
     else
         write(
             said,
-            `${plural(diagram.branches.length, 'branch').replace('branchs', 'branches')} up to ${digits(top)} rad/s. ${
-                diagram.complete ? 'Proved: there are no others.' : 'Not proved: there may be others.'
-            } ●\u00a0stable, ○\u00a0not.`,
+            `${plural(diagram.branches.length, 'branch').replace('branchs', 'branches')} up to ${inUnit(top)}${wordsOf(diagram)} ● stable, ○ not. Click to set the speed.`,
         );
     drawDiagram($('diagram'), {
         branches: diagram?.branches ?? [],
@@ -248,7 +253,16 @@ function showDiagram() {
         speed: state.speed ?? 0,
         top,
         reach: reachOfTip(),
+        unit: state.unit,
     });
+}
+
+/** What is known about a diagram: proved, being proved, tried in vain, or not tried. */
+function wordsOf({complete, tried, tries}) {
+    if (complete) return ', and it is proved that there are no others.';
+    if (tried) return '. There may be others: a proof was tried and does not cover this chain.';
+    if (tries) return '. Proving that there are no others …';
+    return `. There may be others: this page tries a proof up to ${REQUEST.proofLinks} links, the library up to any number.`;
 }
 
 /** What is known of a shape's stability, as a sentence. */
@@ -257,24 +271,50 @@ function stabilityOf({verdict, growth}) {
         return `Unstable: a disturbance grows by a factor of e in ${digits(1 / (growth * Math.abs(state.speed)), 3)} s.`;
     if (verdict === 'minimum') return 'Stable, even with friction.';
     if (verdict === 'spectrally stable') return 'Stable, but friction at the pins may destabilize it.';
-    return verdict === 'undecided' ? 'Stability undecided.' : '';
+    return verdict === 'undecided' ? 'Whether it is stable could not be decided.' : '';
 }
 
-const boundOf = (what, bound, unit) =>
-    Number.isFinite(bound) ? `${what} at most ${shortBound(bound)}${unit} (proved).` : `${what}: no proved bound.`;
-
 function captionOf(figure) {
-    if (figure.isMode) {
-        const motion = `Small motion at ${digits(figure.speed, 8)} rad/s, enlarged.`;
-        return `${motion} ${boundOf('Relative error of the speed', figure.speedBound, '')}`;
-    }
-    if (figure.isStraight)
+    if (figure.isMode)
+        return `Mode ${figure.number}: a small motion at ${inUnit(figure.speed)}, drawn enlarged. One turn takes ${digits((2 * Math.PI) / Math.abs(figure.speed), 3)} s.`;
+    if (figure.isStraight) {
+        const first = modes?.modes.find((mode) => mode.speed > 0)?.speed;
+        const wait = first > (state.speed ?? 0) ? ` It swings out above ${inUnit(first)}.` : '';
         return shapes?.complete
-            ? 'The chain hangs straight at this speed.'
-            : `${plural(figure.links.length, 'link')}, ${digits(totalLength(state))} m`;
-    const place = `Free end ${digits(figure.offset[0], 6)} m from the axis`;
-    const pull = `tension at the support ${digits(figure.tension * state.gravity)} N`;
-    return `${place}; ${pull}. ${boundOf('Error of every angle', figure.bound, ' rad')} ${stabilityOf(figure)}`;
+            ? `The chain hangs straight at this speed.${wait}`
+            : `${plural(figure.links.length, 'link')}, ${digits(totalLength(state), 3)} m.`;
+    }
+    const place = `The free end circles ${digits(Math.abs(figure.offset[0]), 3)} m from the axis`;
+    return `${place}; the support carries ${digits(figure.tension * state.gravity, 3)} N. ${stabilityOf(figure)}`;
+}
+
+/** How exact the numbers are, in plain words. */
+function boundOf(figure) {
+    const proof = 'It is proved each time anew, with interval arithmetic, for the numbers of this page exactly as they stand.';
+    const last = (bound) => (bound < 1e-14 ? ': to the last digit or two that the computer’s numbers have' : '');
+    if (figure.isMode)
+        return Number.isFinite(figure.speedBound)
+            ? `The speed of this mode is off by at most ${shortBound(figure.speedBound)} of itself${last(figure.speedBound)}. ${proof}`
+            : 'The error of this speed has no proved bound.';
+    if (figure.isStraight) return 'That there is no other shape is proved with interval arithmetic.';
+    return Number.isFinite(figure.bound)
+        ? `Every angle of this shape is off by at most ${shortBound(figure.bound)} rad${last(figure.bound)}. ${proof}`
+        : 'The error of this shape has no proved bound.';
+}
+
+/** The sentence of the example and what can be tried with it; nothing for a chain of one's own. */
+function showStory() {
+    const preset = presets.find((each) => each.name === state.name);
+    $('story').hidden = !preset;
+    if (!preset) return;
+    write($('says'), preset.says);
+    const tries = preset.tries.map((one) => {
+        const button = element('button', {type: 'button', textContent: one.text});
+        button.onclick = () =>
+            open({...presetState(preset.name), unit: state.unit, speed: one.speed ?? null, select: one.select ?? null});
+        return button;
+    });
+    $('tries').replaceChildren(element('span', {textContent: 'Try this:'}), ...tries);
 }
 
 function show() {
@@ -286,6 +326,7 @@ function show() {
     modesShown = true;
     showDiagram();
     write($('caption'), captionOf(chosen ?? straight()));
+    write($('bound'), boundOf(chosen ?? straight()));
     $('timing').textContent = engine
         ? `Shapes took ${digits(shapes?.time ?? 0, 2)} ms, branches ${digits(diagram?.time ?? 0, 2)} ms${engine.fast ? '' : ', without SIMD'}.`
         : '';
@@ -315,12 +356,13 @@ function frame(time) {
     if (dirty) {
         show();
         write($('playback'), `×${digits(10 ** $('pace').value, 2)}`);
-        write($('scale'), `${digits(speed)} rad/s = ${digits((speed * 30) / Math.PI)} rpm, ${paceWords(playback)}`);
+        write($('scale'), paceWords(playback));
     }
     chosen ??= straight();
-    if (stage && staged !== chosen) putOnStage(stage, state.radius, chosen, settle);
+    if (stage && staged !== chosen) putOnStage(stage, state, chosen, speed, settle);
     if (stage) {
-        stage.figures[0].turning.rotation.y = angle;
+        const [figure] = stage.figures;
+        figure.turning.rotation.y = figure.trail.rotation.y = angle;
         if (playing || stage.stale) stage.draw();
     }
     staged = chosen;
@@ -350,6 +392,7 @@ function open(given) {
     settle = true;
     buildSliders();
     buildParts();
+    showStory();
     ask();
     saveLink();
     dirty = true;
@@ -362,6 +405,24 @@ function openLink() {
         open(presetState('swing_carousel'));
         problem = wrong.message;
     }
+}
+
+/** Copy a link to what is shown, or the same chain as a program or a scene file. */
+async function copy(button) {
+    const what = button.dataset.copy,
+        words = button.textContent;
+    history.replaceState(null, '', `#${toLink(state)}`);
+    const text = {link: () => location.href, python: () => toPython(state), scene: () => toScene(state)}[what]();
+    try {
+        await navigator.clipboard.writeText(text);
+        button.textContent = 'Copied';
+    } catch {
+        window.prompt('Copy this:', text);
+    }
+    setTimeout(() => {
+        button.textContent = words;
+        $('copy').open = false;
+    }, 1200);
 }
 
 function dragged(canvas, move) {
@@ -382,6 +443,7 @@ function listen() {
     $('preset').onchange = () => open(presetState($('preset').value));
     $('add').onclick = () => {
         state.parts.unshift([1, ...state.parts[0].slice(1)]);
+        state.forms.unshift('');
         buildParts();
         changed();
     };
@@ -394,20 +456,10 @@ function listen() {
         dirty = true;
     };
     $('reset').onclick = () => stage?.arrange(true);
-    $('share').onclick = async () => {
-        history.replaceState(null, '', `#${toLink(state)}`);
-        try {
-            await navigator.clipboard.writeText(location.href);
-            $('share').textContent = 'Copied';
-        } catch {
-            $('share').textContent = 'Copy it from the address bar';
-        }
-        setTimeout(() => {
-            $('share').textContent = 'Copy link';
-        }, 2000);
-    };
+    for (const button of document.querySelectorAll('[data-copy]')) button.onclick = () => copy(button);
+    $('docs').hidden = !location.pathname.includes('/live/');
     const setSpeed = (speed) => {
-        state.speed = Number(speed.toPrecision(4));
+        state.speed = Number((speed * UNITS[state.unit]).toPrecision(4)) / UNITS[state.unit];
         speedSlider.show();
         changed({speed: true});
     };

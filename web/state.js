@@ -10,10 +10,14 @@ const KINDS = {point: [1, 0], rod: [0.5, Math.sqrt(1 / 12)]};
 const presets = JSON.parse(document.getElementById('presets').textContent);
 
 function presetState(name) {
-    const preset = presets.find((each) => each.name === name) ?? presets[0];
-    const {title, ...state} = structuredClone(preset);
-    return {...state, speed: null, select: null};
+    const preset = presets.find((each) => each.name === name);
+    if (!preset) throw new Error(`The link names the example "${name}", which this page does not have. Choose one above.`);
+    const {title, says, tries, ...state} = structuredClone(preset);
+    return {...state, speed: null, select: null, unit: 'rpm'};
 }
+
+/** Units of speed, each as what a speed in rad/s is multiplied by. */
+const UNITS = {rpm: 30 / Math.PI, 'rad/s': 1, Hz: 1 / (2 * Math.PI)};
 
 /** 'point' or 'rod' if a part is that to rounding, else 'body'. */
 function kindOf(part) {
@@ -39,6 +43,13 @@ const hasMomentum = (state) => state.parts.some((part) => part[PART.momentum] !=
 /** For each link, lowest first, its part. */
 const partOfLinks = (state) => state.parts.flatMap((part) => Array(part[PART.count]).fill(part));
 
+/** For each link, lowest first, the form it is drawn in: that of its part, or a ring of a chain of many equal rods. */
+const formOfLinks = (state) =>
+    state.parts.flatMap((part, i) => {
+        const isChain = part[PART.count] >= 8 && kindOf(part) === 'rod';
+        return Array(part[PART.count]).fill(state.forms[i] || (isChain ? 'ring' : ''));
+    });
+
 function toLink(state) {
     const part = (row) => {
         const exact = (kind) => KINDS[kind].every((ratio, i) => ratio * row[PART.length] === row[3 + i]);
@@ -55,6 +66,8 @@ function toLink(state) {
         r: state.radius || null,
         k: state.stiffness,
         c: state.carriage || null,
+        f: state.forms.some(Boolean) ? state.forms.join('~') : null,
+        u: state.unit === 'rpm' ? null : state.unit,
         s: state.select,
     };
     return Object.entries(fields)
@@ -85,20 +98,92 @@ function fromLink(text) {
         if (known) setKind(whole, kind);
         return whole;
     };
-    if (!fields.p) return {...presetState(fields.x), speed: optional('n', 'the speed', null), select: fields.s ?? null};
+    const shown = {speed: optional('n', 'the speed', null), select: fields.s ?? null, unit: fields.u ?? 'rpm'};
+    if (!(shown.unit in UNITS)) throw new Error(`The link gives the unit of speed as "${shown.unit}". It knows rpm, rad/s and Hz.`);
+    if (!fields.p) return {...presetState(fields.x), ...shown};
+    const parts = fields.p.split('~').map(part);
     const state = {
         name: presets.some((each) => each.name === fields.x) ? fields.x : null,
-        parts: fields.p.split('~').map(part),
+        parts,
+        forms: parts.map((_, i) => (fields.f ?? '').split('~')[i] ?? ''),
         gravity: optional('g', 'gravity', STANDARD_GRAVITY),
         radius: optional('r', 'the arm', 0),
         stiffness: optional('k', 'the stiffness', null),
         carriage: optional('c', 'the carriage', 0),
-        speed: optional('n', 'the speed', null),
-        select: fields.s ?? null,
+        ...shown,
     };
     if (linkCount(state) > MOST_LINKS)
         throw new Error(
             `The link has ${linkCount(state)} links. The page shows at most ${MOST_LINKS}; use the Python package.`,
         );
     return state;
+}
+
+// The same chain as a program and as a scene file -----------------------------------------------------------------------
+
+/** The columns of the parts as they are written, lowest first: [[name, value of a part]]; `heavy` parts alone have more. */
+function columnsOf(state) {
+    const has = (index) => state.parts.some((part) => part[index] !== 0);
+    const plain = state.parts.every((part) => kindOf(part) === 'point');
+    const given = [['mass', PART.mass], ['length', PART.length]];
+    if (!plain) given.push(['centroid', PART.centroid], ['radius_of_gyration', PART.gyration]);
+    return {given, stands: has(PART.stands), spins: has(PART.momentum) || has(PART.axial)};
+}
+
+function toPython(state) {
+    const {given, stands, spins} = columnsOf(state);
+    const list = (index, write = String) => {
+        const parts = state.parts.map((part) => `[${write(part[index])}]${part[0] > 1 ? ` * ${part[0]}` : ''}`);
+        return parts.join(' + ');
+    };
+    const rig = [];
+    if (state.radius || state.stiffness !== null) {
+        const support = {stiffness: state.stiffness, mass: state.carriage || null, radius: state.radius || null};
+        const known = Object.entries(support).filter(([, value]) => value !== null);
+        rig.push(`support=rc.Support(${known.map(([name, value]) => `${name}=${value}`).join(', ')})`);
+    }
+    if (spins) rig.push(`flywheels=rc.Flywheel(momentum=${list(PART.momentum)}, axial_moment=${list(PART.axial)})`);
+    if (stands) rig.push(`inverted=${list(PART.stands, (x) => (x ? 'True' : 'False'))}`);
+    const gravity = state.gravity === STANDARD_GRAVITY ? '' : `, gravity=${state.gravity}`;
+    const lines = ['import revchain as rc', '', 'chain = rc.Chain(  # the lowest link first'];
+    for (const [name, index] of given) lines.push(`    ${name}=${list(index)},`);
+    lines.push(')', rig.length ? `system = rc.Rig(chain, ${rig.join(', ')})` : 'system = chain');
+    lines.push(`print(rc.modes(system${gravity}))`);
+    if (state.speed) lines.push(`print(rc.steady_shapes(system, angular_speed=${state.speed}${gravity}))`);
+    return `${lines.join('\n')}\n`;
+}
+
+/** A wheel of half the mass of a link with its momentum; one with an axial moment is driven. */
+function wheelOf(part) {
+    const mass = part[PART.mass] / 2,
+        driven = part[PART.axial] > 0;
+    const radius = driven ? Math.sqrt(part[PART.axial] / mass) : part[PART.gyration] || part[PART.length] / 10;
+    const spin = part[PART.momentum] / (mass * radius * radius);
+    return `{mass = ${mass}, radius_of_gyration = ${radius}, spin = ${spin}${driven ? ', driven = true' : ''}}`;
+}
+
+function toScene(state) {
+    const {given} = columnsOf(state);
+    const title = presets.find((each) => each.name === state.name)?.title ?? 'My chain';
+    const lines = [`title = "${title}"`];
+    if (state.gravity !== STANDARD_GRAVITY) lines.push(`gravity = ${state.gravity}`);
+    for (const part of state.parts) {
+        lines.push('', '[[links]]');
+        const kind = kindOf(part);
+        const shown = kind === 'body' ? given : given.slice(0, 2);
+        if (kind === 'rod') lines.push('kind = "rod"');
+        for (const [name, index] of shown) lines.push(`${name} = ${part[index]}`);
+        if (part[PART.count] > 1) lines.push(`repeat = ${part[PART.count]}`);
+        if (part[PART.stands]) lines.push('standing = true');
+        if (part[PART.momentum] || part[PART.axial]) lines.push(`flywheel = ${wheelOf(part)}`);
+    }
+    if (state.radius || state.stiffness !== null) {
+        lines.push('', '[support]');
+        if (state.radius) lines.push(`radius = ${state.radius}`);
+        if (state.stiffness !== null) lines.push(`stiffness = ${state.stiffness}`);
+        if (state.carriage) lines.push(`mass = ${state.carriage}`);
+    }
+    lines.push('', '[ask.modes]');
+    if (state.speed) lines.push('', '[ask.shapes]', `angular_speed = ${state.speed}`);
+    return `${lines.join('\n')}\n`;
 }

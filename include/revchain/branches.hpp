@@ -214,7 +214,8 @@ REVCHAIN_DECLARE
                                 Thorough);
 
 /// The whole diagram of a rig in its own posture: the branches of its modes, or the one from rest
-/// if its support is off the axis, and isolated ones. Method and proof are those of chains.
+/// if its support is off the axis, and isolated ones. Method and proof are those of chains; for a
+/// chain without rigging it is the diagram of the chain.
 ///
 /// The proof covers rigs on springs, on an arm, with flywheels and in fluids. All links must hang
 /// in tension, each at one inclination for its load, at every speed up to the given one. Below the

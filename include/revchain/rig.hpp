@@ -153,6 +153,15 @@ class Rig {
             with_.flywheels.begin(), with_.flywheels.end(),
             [](const Flywheel& wheel) { return wheel.momentum != Wide<double>(0.0); });
     }
+    /// Whether small motions are those of the chain alone: a firm support, no wheel, no fluid, and
+    /// no link that stands. The support may be carried round.
+    bool is_plain_chain() const {
+        for (Index m = 0; m < size(); ++m)
+            if (stands(m) || flywheel(m) != Flywheel{} || displaced(m).weight != 0 ||
+                displaced(m).added_weight != 0)
+                return false;
+        return with_.support.is_firm();
+    }
 
     friend bool operator==(const Rig&, const Rig&) = default;
 

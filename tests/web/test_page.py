@@ -35,8 +35,8 @@ def close(found: Any, expected: Any) -> None:
 
 
 def same_modes(found: dict[str, Any], system: Any, gravity: float) -> None:
-    count = min(system.size, 12)
-    expected = rc.modes(system, count, gravity=gravity)
+    of = system if isinstance(system, rc.Rig) else rc.Rig(system)
+    expected = rc.modes(of, min(system.size + 1, 12), gravity=gravity)
     assert len(found["modes"]) == len(expected.angular_speed)
     for mode, speed, height, shape, nodes in zip(
         found["modes"], expected.angular_speed, expected.conical_height, expected.shape, expected.nodes, strict=True
@@ -72,6 +72,55 @@ def test_numbers_of_a_preset_are_those_of_the_library(open_page, name, query):
     gravity = scene.gravity_value()
     same_modes(found["modes"], scene.system(), gravity)
     same_shapes(found["shapes"], scene.system(), found["state"]["speed"], gravity)
+
+
+@pytest.mark.parametrize("name", web_page.PRESETS)
+def test_what_an_example_says_can_be_tried(open_page, name):
+    """Each thing to try shows what it says: so many shapes, or the mode or the shape."""
+    page = open_page(f"x={name}")
+    settled(page)
+    assert page.text_content("#says") == web_page.STORIES[name]["says"]
+    for nth, one in enumerate(web_page.STORIES[name]["tries"]):
+        page.locator("#tries button").nth(nth).click()
+        found = settled(page)
+        assert found["state"]["name"] == name and found["problem"] == ""
+        if "speed" in one:
+            assert found["state"]["speed"] == one["speed"]
+            assert len(found["shapes"]["shapes"]) == one["shapes"]
+        if "select" in one:
+            assert found["state"]["select"] == one["select"]
+            kind, number = one["select"][0], int(one["select"][1:])
+            assert len(found["modes" if kind == "m" else "shapes"]["modes" if kind == "m" else "shapes"]) >= number
+
+
+@pytest.mark.parametrize("name", web_page.PRESETS)
+def test_the_program_and_the_scene_are_the_same_chain(open_page, name, tmp_path):
+    page = open_page(f"x={name}")
+    found = settled(page)
+    names: dict[str, Any] = {}
+    exec(page.evaluate("toPython(state)"), names)  # prints, too
+    (tmp_path / "copied.toml").write_text(page.evaluate("toScene(state)"), encoding="utf-8")
+    scene = rc.load_scene(tmp_path / "copied.toml")
+    for system in (names["system"], scene.system()):
+        same_modes(found["modes"], system, scene.gravity_value())
+
+
+def test_speeds_in_another_unit(open_page):
+    page = open_page("x=two_weights")
+    before = settled(page)
+    page.select_option("#speed-slider select", "Hz")
+    page.wait_for_function("document.getElementById('mode-list').textContent.includes('0.5395 Hz')")
+    assert page.locator("#speed-slider .number").input_value() == f"{before['state']['speed'] / (2 * np.pi):.6g}"
+    page.locator("#speed-slider .number").fill("1")
+    page.locator("#speed-slider .number").press("Enter")
+    assert settled(page)["state"]["speed"] == pytest.approx(2 * np.pi)
+    page.wait_for_function("location.hash.includes('u=Hz')")
+
+
+def test_the_page_proves_what_the_library_proves(open_page):
+    """Massless threads, which the proof for rigs does not cover."""
+    for name in ("two_weights", "stick_on_string", "rods_on_threads", "bernoulli_chain"):
+        assert settled(open_page(f"x={name}"))["diagram"]["complete"], name
 
 
 def test_every_branch_is_that_of_the_library(open_page):
@@ -138,6 +187,7 @@ def test_the_picture_turns_and_pauses(open_page):
     page.keyboard.press("ArrowLeft")
     page.wait_for_timeout(200)
     assert view.screenshot() != still
+    page.click("#more > summary")
     page.click("#reset")
     page.wait_for_timeout(200)
     page.locator("#pace").fill("-1")

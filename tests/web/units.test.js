@@ -9,9 +9,13 @@ const assert = require('node:assert/strict'),
 
 const WEB = join(__dirname, '../../web');
 const PRESETS = [
-    {name: 'nut', title: 'A nut', parts: [[1, 2, 3, 3, 0, 0, 0, 0]], gravity: 9.80665, radius: 0, stiffness: null, carriage: 0},
+    {
+        ...{name: 'nut', title: 'A nut', says: 'It hangs.', tries: [], parts: [[1, 2, 3, 3, 0, 0, 0, 0]], forms: ['']},
+        ...{gravity: 9.80665, radius: 0, stiffness: null, carriage: 0},
+    },
 ];
-const NAMES = 'presetState, kindOf, setLength, setKind, linkCount, totalLength, partOfLinks, toLink, fromLink, heightsOf';
+const NAMES =
+    'presetState, kindOf, setLength, setKind, linkCount, totalLength, partOfLinks, formOfLinks, toLink, fromLink, toPython, toScene, heightsOf';
 
 /** The functions of the scripts, which are plain ones, in a context of their own. */
 function page() {
@@ -20,7 +24,8 @@ function page() {
     const text = ['state.js', 'draw.js'].map((name) => readFileSync(join(WEB, name), 'utf8')).join('\n');
     return vm.runInContext(`${text}\n;({${NAMES}})`, context);
 }
-const {kindOf, setLength, setKind, linkCount, totalLength, partOfLinks, toLink, fromLink, presetState, heightsOf} = page();
+const {kindOf, setLength, setKind, linkCount, totalLength, partOfLinks, formOfLinks} = page();
+const {toLink, fromLink, toPython, toScene, presetState, heightsOf} = page();
 const plain = (value) => JSON.parse(JSON.stringify(value));
 
 /** The same numbers on every run. */
@@ -44,6 +49,8 @@ test('a link gives back every digit of what is set', () => {
             radius: next() < 0.5 ? 0 : next(),
             stiffness: next() < 0.5 ? null : 1000 * next(),
             carriage: next() < 0.5 ? 0 : next(),
+            forms: parts.map(() => ['', 'bell', 'seat'][Math.floor(3 * next())]),
+            unit: ['rpm', 'rad/s', 'Hz'][Math.floor(3 * next())],
             speed: next() < 0.5 ? null : 30 * next(),
             select: next() < 0.5 ? null : 's2',
         };
@@ -62,11 +69,12 @@ test('links of point masses and rods are short', () => {
 test('an example alone, and no link at all', () => {
     assert.equal(fromLink(''), null);
     assert.deepEqual(plain(fromLink('x=nut&n=2.5&s=m1')), {...plain(presetState('nut')), speed: 2.5, select: 'm1'});
-    assert.equal(fromLink('x=unknown').name, 'nut');
 });
 
 test('wrong links say which number is wrong', () => {
     for (const [link, words] of [
+        ['x=unknown', /example "unknown", which this page does not have/],
+        ['x=nut&u=mph', /unit of speed as "mph"/],
         ['p=2_x_1_rod', /mass as "x"/],
         ['p=2_1__rod', /length as ""/],
         ['p=2.5_1_1_rod', /number of links/],
@@ -85,6 +93,19 @@ test('a part keeps its kind when its length changes', () => {
         assert.equal(part[2], 1.9);
         assert.equal(kindOf(part), kind);
     }
+});
+
+test('a chain of many equal rods is drawn as rings, a part in its form', () => {
+    const rod = [9, 1, 1, 0, 0, 0, 0, 0];
+    setKind(rod, 'rod');
+    const state = {parts: [[1, 1, 1, 1, 0, 0, 0, 0], rod], forms: ['seat', '']};
+    assert.deepEqual(plain(formOfLinks(state)), ['seat', ...Array(9).fill('ring')]);
+});
+
+test('the same chain as a program and as a scene', () => {
+    const state = {...presetState('nut'), speed: 2.5, radius: 0.5, stiffness: 40, carriage: 3};
+    assert.match(toPython(state), /mass=\[2\],\n    length=\[3\],\n\)\nsystem = rc.Rig\(chain, support=rc.Support\(stiffness=40, mass=3, radius=0.5\)\)/);
+    assert.match(toScene(state), /title = "A nut"\n\n\[\[links\]\]\nmass = 2\nlength = 3\n\n\[support\]\nradius = 0.5\nstiffness = 40\nmass = 3\n/);
 });
 
 test('counts, lengths and heights', () => {

@@ -162,16 +162,6 @@ RigModes plain_modes(const Rig& rig, const RigModesOptions& options) {
     return result;
 }
 
-/// Returns true if a rig has no attachments.
-REVCHAIN_LAZY
-bool is_plain_chain(const Rig& rig) {
-    for (Index m = 0; m < rig.size(); ++m)
-        if (rig.stands(m) || !(rig.flywheel(m) == Flywheel{}) || rig.displaced(m).weight != 0 ||
-            rig.displaced(m).added_weight != 0)
-            return false;
-    return rig.support().is_firm();
-}
-
 /// Returns the solution of a height that is negative or complex, in the pencil's unit, and its
 /// relative bound. The growth rate is the square root of -g/height with a positive real part.
 REVCHAIN_LAZY
@@ -307,7 +297,7 @@ RigModes modes(const Rig& rig, const RigModesOptions& options) {
     require_positive("modes", "gravity", options.gravity);
     check(options);
     const Threads used("modes", options.threads);
-    if (is_plain_chain(rig)) return plain_modes(rig, options);
+    if (rig.is_plain_chain()) return plain_modes(rig, options);
     const RigRoots roots("modes", rig, options.gravity,
                          [&](double share) { advance(options.progress, 0.9 * share); });
     RigModes result;
@@ -346,7 +336,7 @@ RigModes modes(const Rig& rig, const RigModesOptions& options) {
 
 REVCHAIN_INLINE RigModeCounter::RigModeCounter(const Rig& rig, double gravity) : gravity_(gravity) {
     detail::require_positive("count_modes", "gravity", gravity);
-    if (detail::is_plain_chain(rig))
+    if (rig.is_plain_chain())
         plain_ = std::make_shared<const ModeCounter<double>>(rig.chain());
     else
         roots_ =

@@ -17,6 +17,26 @@ template <class Means>
 class RigQuestions;
 template <class Questions, class System, class Options, class Means>
 Branches diagram_of(const System& system, const Options& options, Means means);
+template <class Means>
+Branches diagram_of(const Chain<double>& chain, const DiagramOptions& options, Means means) {
+    return diagram_of<ChainQuestions<Means>>(chain, options, means);
+}
+/// The proof for rigs does not cover massless threads; that for chains does.
+template <class Means>
+Branches diagram_of(const Rig& rig, const RigDiagramOptions& options, Means means) {
+    if (!rig.is_plain_chain() || rig.support().radius != 0)
+        return diagram_of<RigQuestions<Means>>(rig, options, means);
+    return diagram_of(rig.chain(),
+                      DiagramOptions{.min_conical_height = options.min_conical_height,
+                                     .max_angular_speed = options.max_angular_speed,
+                                     .max_points = options.max_points,
+                                     .max_step = options.max_step,
+                                     .lists = options.lists,
+                                     .budget = options.budget,
+                                     .proof_budget = options.proof_budget,
+                                     .gravity = options.gravity},
+                      means);
+}
 }  // namespace finite
 
 REVCHAIN_INLINE SteadyShape Branch::shape(std::size_t point) const {
@@ -168,21 +188,19 @@ SteadyShape steady_shape(const Rig& rig, const RigOnBranchOptions& options) {
 }
 REVCHAIN_DEFINE
 Branches branches(const Chain<double>& chain, const DiagramOptions& options) {
-    return finite::diagram_of<finite::ChainQuestions<detail::UsualMeans>>(chain, options,
-                                                                          detail::UsualMeans{});
+    return finite::diagram_of(chain, options, detail::UsualMeans{});
 }
 REVCHAIN_DEFINE
 Branches branches(const Rig& rig, const RigDiagramOptions& options) {
-    return finite::diagram_of<finite::RigQuestions<detail::UsualMeans>>(rig, options,
-                                                                        detail::UsualMeans{});
+    return finite::diagram_of(rig, options, detail::UsualMeans{});
 }
 REVCHAIN_DEFINE
 Branches branches(const Chain<double>& chain, const DiagramOptions& options, Thorough) {
-    return finite::diagram_of<finite::ChainQuestions<Thorough>>(chain, options, thorough);
+    return finite::diagram_of(chain, options, thorough);
 }
 REVCHAIN_DEFINE
 Branches branches(const Rig& rig, const RigDiagramOptions& options, Thorough) {
-    return finite::diagram_of<finite::RigQuestions<Thorough>>(rig, options, thorough);
+    return finite::diagram_of(rig, options, thorough);
 }
 
 }  // namespace revchain

@@ -1,9 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The figure of a chain from numbers, in the forms that the package writes into .glb files.
-import { CylinderGeometry, Group, Mesh, MeshStandardMaterial, SphereGeometry, Vector3 } from "three";
+// The figure of a chain from numbers: links as bars, bodies in the forms of their names, support, arm, mast, and a trail.
+import {
+  BoxGeometry, BufferGeometry, CylinderGeometry, Euler, Float32BufferAttribute, Group, LatheGeometry, Line, LineBasicMaterial, Mesh,
+  MeshStandardMaterial, Quaternion, SphereGeometry, TorusGeometry, Vector2, Vector3,
+} from "three";
 
-const THIN = 0.006, BALL = 0.035;  // radii, over the height or the width of the whole
-const UP = new Vector3(0, 1, 0), forms = { bar: new CylinderGeometry(1, 1, 1, 20), ball: new SphereGeometry(1, 20, 8) };
+const THIN = 0.006, THICK = 0.014, BALL = 0.035;  // radii, over the height or the width of the whole
+const UP = new Vector3(0, 1, 0), SEATS = 8;  // places on a carousel
+const GREY = { body: "#595959", support: "#1a1a1a", axis: "#b3b3b3", others: "#aab4bd" };
+const METAL = "#b08d3c", WOOD = "#8a6a4a", RIDER = "#c25400", AHEAD = "#0072b2", BACK = "#cc3311";
+
+const turned = (points) => new LatheGeometry(points.map(([r, y]) => new Vector2(r, y)), 32);
+const forms = {  // of radius or width 1, upright
+  bar: new CylinderGeometry(1, 1, 1, 20),
+  ball: new SphereGeometry(1, 20, 10),
+  box: new BoxGeometry(1, 1, 1),
+  ring: new TorusGeometry(0.5, 0.15, 8, 14),
+  rim: new TorusGeometry(1, 0.05, 8, 40).rotateX(Math.PI / 2),
+  bell: turned([  // from the rim up the outside to the crown and down the inside
+    [1, 0], [0.9, 0.06], [0.76, 0.2], [0.66, 0.42], [0.61, 0.66], [0.56, 0.84], [0.44, 0.95], [0.2, 1], [0, 1], [0, 0.92],
+    [0.4, 0.86], [0.5, 0.7], [0.58, 0.42], [0.7, 0.18], [0.92, 0], [1, 0],
+  ]),
+  jar: turned([[0, 0], [0.55, 0], [0.75, 0.2], [0.8, 0.5], [0.6, 0.8], [0.35, 0.9], [0.45, 1], [0, 0.98]]),
+};
 const materials = new Map();
 
 function materialOf(colour) {
@@ -13,32 +32,120 @@ function materialOf(colour) {
   return materials.get(colour);
 }
 
-/** {root, turning} of a chain. Pins are [offset, height], lowest first; bodies are [offset, height, size 0 to 1]. */
-export function chainFigure({ pins, bodies, arm, top, floor, colour }) {
+function put(parent, form, colour, at, scale, turn) {
+  const mesh = new Mesh(forms[form], materialOf(colour));
+  mesh.position.copy(at);
+  mesh.scale.set(...scale);
+  if (turn) mesh.quaternion.copy(turn);
+  parent.add(mesh);
+}
+
+/** A bar between two points. */
+function bar(parent, from, to, radius, colour) {
+  const way = to.clone().sub(from), length = Math.max(way.length(), 1e-9);
+  const middle = from.clone().add(to).multiplyScalar(0.5);
+  put(parent, "bar", colour, middle, [radius, length, radius], new Quaternion().setFromUnitVectors(UP, way.divideScalar(length)));
+}
+
+/** What links are drawn as by their names: function of {put, length, size, gyration, along}, in axes of the link whose y
+ * points away from the pin it hangs from or stands on. `piece(form, colour, [x, y, z], [wide, high, deep], turned by)`. */
+const bodies = {
+  bell({ piece, gyration, along }) {
+    const wide = 1.35 * gyration, high = 2.2 * gyration;
+    piece("bell", METAL, [0, along + 0.42 * high, 0], [wide, high, wide], new Euler(Math.PI, 0, 0));
+  },
+  jar({ piece, length }) { piece("jar", WOOD, [0, 0, 0], [0.4 * length, length, 0.4 * length]); },
+  person({ piece, length: tall }) {
+    for (const side of [-1, 1]) piece("bar", GREY.body, [0, 0.25 * tall, 0.06 * tall * side], [0.035 * tall, 0.5 * tall, 0.035 * tall]);
+    for (const side of [-1, 1]) piece("ball", GREY.body, [0, 0.64 * tall, 0.13 * tall * side], [0.03 * tall, 0.17 * tall, 0.03 * tall]);
+    piece("ball", RIDER, [0, 0.64 * tall, 0], [0.08 * tall, 0.19 * tall, 0.11 * tall]);
+    piece("ball", GREY.body, [0, 0.9 * tall, 0], [0.07 * tall, 0.09 * tall, 0.07 * tall]);
+  },
+  seat({ piece, along, tall }) {
+    const s = 0.075 * tall;
+    piece("box", AHEAD, [0, along + 0.3 * s, 0], [s, 0.1 * s, 0.9 * s]);
+    piece("box", AHEAD, [0, along - 0.1 * s, -0.45 * s], [s, 0.9 * s, 0.08 * s]);
+    piece("ball", RIDER, [0, along - 0.2 * s, -0.1 * s], [0.3 * s, 0.5 * s, 0.25 * s]);
+    piece("ball", GREY.body, [0, along - 0.9 * s, -0.1 * s], [0.22 * s, 0.24 * s, 0.22 * s]);
+    piece("ball", GREY.body, [0, along + 0.25 * s, 0.2 * s], [0.26 * s, 0.16 * s, 0.4 * s]);
+  },
+  crate({ piece, along, tall }) { piece("box", WOOD, [0, along, 0], [0.1 * tall, 0.08 * tall, 0.1 * tall]); },
+  hook({ piece, along, tall }) { piece("box", METAL, [0, along, 0], [0.035 * tall, 0.045 * tall, 0.025 * tall]); },
+  wheel({ piece, gyration, along, ahead }) {
+    const r = Math.SQRT2 * gyration, rim = ahead < 0 ? BACK : AHEAD;
+    piece("rim", rim, [0, along, 0], [r, r, r]);
+    piece("ball", GREY.body, [0, along, 0], [0.09 * r, 0.14 * r, 0.09 * r]);
+    for (const way of [0, 1, 2]) {
+      piece("bar", GREY.axis, [0, along, 0], [0.02 * r, 2 * r, 0.02 * r], new Euler(0, way * Math.PI / 3, Math.PI / 2));
+    }
+  },
+  disc({ piece, gyration, along, ahead }) {
+    const r = Math.SQRT2 * gyration;
+    piece("bar", ahead < 0 ? BACK : AHEAD, [0, along, 0], [r, 0.3 * r, r]);
+  },
+};
+
+/** A link from its lower pin to its upper one, with its body. */
+function addLink(parent, link, lower, upper, { tall, ball, colour, others, odd }) {
+  const paint = (own) => others ? GREY.others : own;
+  const [from, to] = [upper, lower];  // the pin it hangs from or stands on first
+  const way = to.clone().sub(from), length = Math.max(way.length(), 1e-9), turn = new Quaternion().setFromUnitVectors(UP, way.divideScalar(length));
+  const at = (x, y, z) => new Vector3(x, y, z).applyQuaternion(turn).add(from);
+  function piece(form, own, place, scale, tilt) {
+    const way = tilt === undefined ? turn : turn.clone().multiply(new Quaternion().setFromEuler(tilt));
+    put(parent, form, paint(own), at(...place), scale, way);
+  }
+  const along = link.along * length, gyration = link.gyration;
+  if (link.form === "ring") {
+    const wide = Math.max(0.55 * length, 2.4 * THIN * tall);
+    const twist = turn.clone().multiply(new Quaternion().setFromAxisAngle(UP, odd ? Math.PI / 2 : 0));
+    put(parent, "ring", paint(colour), at(0, length / 2, 0), [wide, 1.15 * length, wide], twist);
+    return;
+  }
+  bar(parent, lower, upper, (link.stands ? THICK : THIN) * tall, paint(colour));
+  if (bodies[link.form]) return bodies[link.form]({ piece, length, along, gyration, tall, ahead: link.ahead });
+  if (link.size) {
+    if (link.rod) bar(parent, at(0, along - link.rod * length, 0), at(0, along + link.rod * length, 0), 1.8 * THIN * tall, paint(colour));
+    if (!link.plain) piece("ball", GREY.body, [0, along, 0], Array(3).fill(ball * Math.max(link.size, 0.3)));
+  }
+}
+
+/** The arc along which a point at this distance and height has come, fading away. */
+function trailOf(radius, height, turns, colour) {
+  const count = 49, line = new BufferGeometry(), places = [], shades = [];
+  const { r, g, b } = materialOf(colour).color;
+  for (let k = 0; k < count; k++) {
+    const angle = turns * k / (count - 1) * 2.2;
+    places.push(radius * Math.cos(angle), height, radius * Math.sin(angle));
+    shades.push(r, g, b, 0.75 * (1 - k / (count - 1)) ** 1.5);
+  }
+  line.setAttribute("position", new Float32BufferAttribute(places, 3));
+  line.setAttribute("color", new Float32BufferAttribute(shades, 4));
+  return new Line(line, new LineBasicMaterial({ vertexColors: true, transparent: true }));
+}
+
+/** {root, turning, trail} of a chain. Pins are [offset, height], lowest first; `links`, one fewer, are described by
+ * {form, size 0 to 1, along and rod as parts of the length, gyration in m, ahead, stands, plain}. */
+export function chainFigure({ pins, links, arm, carriage, top, floor, colour, turns }) {
   const root = new Group(), turning = new Group(), points = pins.map(([x, y]) => new Vector3(x, y, 0));
   const tall = Math.max(top - floor, ...pins.map(([x]) => 2 * Math.abs(x))), support = points.at(-1);
-  function bar(parent, from, to, radius, of) {
-    const mesh = new Mesh(forms.bar, materialOf(of)), way = to.clone().sub(from);
-    const length = Math.max(way.length(), 1e-9 * tall);
-    mesh.position.copy(from).add(to).multiplyScalar(0.5);
-    mesh.quaternion.setFromUnitVectors(UP, way.divideScalar(length));
-    mesh.scale.set(radius * tall, length, radius * tall);
-    parent.add(mesh);
+  const ball = tall * Math.min(BALL, Math.max(0.28 / links.length, 1.5 * THIN));
+  const end = new Vector3(arm, 0, 0), axis = new Vector3(0, 0, 0), ride = arm > 0 && links.some(({ form }) => form === "seat");
+  bar(root, new Vector3(0, floor, 0), new Vector3(0, top, 0), (ride ? 2.5 * THIN : THIN / 3) * tall, ride ? GREY.support : GREY.axis);
+  for (let place = 0; place < (ride ? SEATS : 1); place++) {
+    const group = new Group(), others = place > 0;
+    group.rotation.y = 2 * Math.PI * place / SEATS;
+    points.slice(1).forEach((upper, k) => {
+      addLink(group, links[k], points[k], upper, { tall, ball, colour, others, odd: k % 2 });
+    });
+    if (carriage && !others) put(group, "box", GREY.body, support, [0.09 * tall, 0.025 * tall, 0.06 * tall]);
+    put(group, "ball", GREY.support, support, Array(3).fill(0.5 * BALL * tall));
+    if (arm) bar(group, axis, end, 1.3 * THIN * tall, GREY.support);
+    if (support.distanceTo(end) > 1e-9 * tall) bar(group, end, support, THIN / 2 * tall, GREY.axis);  // the spring
+    turning.add(group);
   }
-  function ball(at, radius, of) {
-    const mesh = new Mesh(forms.ball, materialOf(of));
-    mesh.position.copy(at);
-    mesh.scale.setScalar(radius * tall);
-    turning.add(mesh);
-  }
-  bar(root, new Vector3(0, floor, 0), new Vector3(0, top, 0), THIN / 3, "#b3b3b3");
-  points.slice(1).forEach((upper, k) => bar(turning, upper, points[k], THIN, colour));
-  const most = Math.min(BALL, Math.max(0.28 / (points.length - 1), 1.5 * THIN));
-  for (const [x, y, size] of bodies) ball(new Vector3(x, y, 0), most * Math.max(size, 0.3), "#595959");
-  ball(support, 0.6 * BALL, "#1a1a1a");
-  const end = new Vector3(arm, 0, 0), axis = new Vector3(0, 0, 0);
-  if (arm) bar(turning, axis, end, 1.3 * THIN, "#1a1a1a");
-  if (support.distanceTo(end) > 1e-9 * tall) bar(turning, end, support, THIN / 2, "#b3b3b3");  // the spring
-  root.add(turning);
-  return { root, turning };
+  const trail = new Group(), [x, y] = pins[0];
+  if (Math.abs(x) > 1e-6 * tall) trail.add(trailOf(x, y, turns, colour));
+  root.add(turning, trail);
+  return { root, turning, trail };
 }
