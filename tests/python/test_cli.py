@@ -449,7 +449,7 @@ def test_memory(run, monkeypatch):
     def greedy(*_, **__):
         raise MemoryError
 
-    monkeypatch.setattr(_answer, "find_modes", greedy)
+    monkeypatch.setitem(_answer.FUNCTIONS, "modes", greedy)
     code, _, err = run("modes", "watch.toml", "--json", "a.json")
     assert code == ExitCode.WRONG_USAGE and "memory" in err and files() == ["watch.toml"]
 

@@ -13,9 +13,8 @@ from tier import by_tier
 
 import revchain as rc
 from revchain.scenes import tables as hung
-from revchain.scenes.ask import QUESTIONS, Ask, AskModes, Spread
+from revchain.scenes.tables import QUESTIONS, Ask, AskModes, Link, Spread, UniformChain
 from revchain.scenes.scene import Scene, json_schema
-from revchain.scenes.tables import Link, UniformChain
 
 _HANGING = ("Link", "UniformChain", "TaperedChain", "Cord", "Support", "Flywheel", "Displaced", "Held", "End")
 

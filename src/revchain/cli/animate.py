@@ -12,7 +12,7 @@ import typer
 
 from ..motion.write import METHODS, require_for
 from ..results.files import written_aside
-from ..scenes.ask import QUESTIONS
+from ..scenes.tables import QUESTIONS
 from .ask import Gravity, Quiet, SceneFile, answer_of, read_scene, refuse_without_answer
 from .exit_codes import ExitCode
 from .frame import Stop, app, epilog, guarded

@@ -14,13 +14,12 @@ from msgspec import Meta, structs
 from rich.console import Console
 
 from ..results.files import written_aside
-from ..scenes.ask import QUESTIONS, AskExplain, Pair, Spread
-from ..scenes.chain import Numbers
+from ..scenes.tables import QUESTIONS, AskExplain, Pair, Spread, Table, fields_of
+from ..scenes.system import Numbers, System
 from ..scenes.error import SceneError
 from ..scenes.parse import is_json, text_of
 from ..scenes.places import places_in
-from ..scenes.scene import EXCLUSIVE, Scene, System, load_scene, read
-from ..scenes.tables import Table, fields_of
+from ..scenes.scene import EXCLUSIVE, Scene, load_scene, read
 from ..systems.extras import require
 from .exit_codes import ExitCode
 from .frame import STDOUT, Stop, app, epilog, guarded, outputs_of

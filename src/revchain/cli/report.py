@@ -22,7 +22,7 @@ from ..results.explanation import Explanation
 from ..results.modes import Modes
 from ..results.motions import Response, Swing
 from ..results.sheet import Column, Sheet, as_csv, as_dict, cells
-from ..scenes.chain import in_file
+from ..scenes.system import in_file
 from ..scenes.scene import Scene
 from .exit_codes import ExitCode
 from .frame import PICTURES, Stop, save_picture

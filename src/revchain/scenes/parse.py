@@ -20,10 +20,9 @@ import msgspec
 
 from ..systems.numbers import file_path
 from ..systems.units import SI, si_value
-from .ask import QUESTIONS
 from .error import Problem, SceneError
 from .places import joined, places_in
-from .tables import BESIDE, SYSTEMS, Link, fields_of
+from .tables import BESIDE, QUESTIONS, SYSTEMS, Link, fields_of
 
 Kind = TypeVar("Kind")
 MOST_DIGITS = 400  # more than those of the largest float

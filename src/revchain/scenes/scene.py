@@ -14,17 +14,13 @@ from .. import _core
 from ..systems.numbers import text
 from . import parse
 from .answer import SPEEDS, answered, arguments
-from .ask import QUESTIONS, TABLES, AskExplain, AskModes
-from .chain import Numbers, of_file
 from .error import Problem, SceneError
-from .system import System as System
-from .system import Tables, system_of
-from .system import is_by_mass as is_by_mass
-from .tables import BESIDE, SYSTEMS, Table
+from .system import Numbers, System, problem_of, system_of
+from .tables import BESIDE, QUESTIONS, SYSTEMS, TABLES, AskExplain, AskModes, Table, Tables
 
 __all__ = ["Scene", "load_scene"]
 
-EXCLUSIVE = (*SPEEDS, "count", "first")
+EXCLUSIVE = (*SPEEDS["shapes"], *SPEEDS["branches"], "count", "first")
 # By the id of each living scene. A struct with `dict=True` could hold this, but msgspec before 0.21 crashes with it on
 # Python 3.13; a frozen struct with lists has no hash, so that it is no key of a WeakKeyDictionary.
 _MADE: dict[int, tuple["weakref.ref[Scene]", dict[str, Any]]] = {}
@@ -246,7 +242,7 @@ class Scene(Tables, frozen=True, weakref=True):
         try:
             return answered(question, system, dict(given), gravity, progress)
         except ValueError as error:
-            raise of_file(error, "scene", "", self._bodies()) from None
+            raise SceneError("scene", problems=[problem_of(error, "", self._bodies())]) from None
 
     def _table(self, question: str, changed: dict[str, Any]) -> Table:
         """The table of a question, with the values of `changed`."""

@@ -11,7 +11,7 @@ from typing import Annotated, Any, Literal, Self
 from msgspec import UNSET, Meta, UnsetType, to_builtins
 
 from ..scenes import parse
-from ..scenes.chain import Numbers
+from ..scenes.system import Numbers
 from ..scenes.error import Problem, SceneError
 from ..scenes.places import joined
 from ..scenes.scene import Scene, json_schema, load_scene
