@@ -46,15 +46,18 @@ class Report:
     @cached_property
     def tables(self) -> list[tuple[Text | None, Table | None]]:
         """The printed tables: heading and grid of each."""
-        more = [getattr(self.found, name, None) for name in ("certificate", "other")]
-        sheets = [self.sheet, *[each._sheet() for each in more if each is not None and (each is more[0] or len(each))]]
+        sheets: list[Sheet] = [self.sheet]
+        for name in ("certificate", "other"):
+            part = getattr(self.found, name, None)
+            if part is not None and (name == "certificate" or len(part)):
+                sheets.append(part._sheet())
         if isinstance(self.found, Response) and self.found.angular_speed.size == 1:
             sheets.append(_pins(self.found))
-        styles = ["" if each.good else "bold yellow" for each in sheets]
-        texts = [Text(each.heading, style=style) for each, style in zip(sheets, styles, strict=True)]
-        headings = [text if text.plain else None for text in texts]
-        grids = [_grid(each, self.units) for each in sheets]
-        return list(zip(headings, grids, strict=True))
+        tables: list[tuple[Text | None, Table | None]] = []
+        for sheet in sheets:
+            heading = Text(sheet.heading, style="" if sheet.good else "bold yellow") if sheet.heading else None
+            tables.append((heading, _grid(sheet, self.units)))
+        return tables
 
     def check(self, path: Path) -> None:
         """Raise Stop with exit code 1 unless everything was found and proved."""

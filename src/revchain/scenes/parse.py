@@ -7,14 +7,11 @@ import json
 import os
 import re
 import tomllib
-from bisect import bisect, insort
+from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from difflib import get_close_matches
-from functools import cache
-from itertools import chain
-from types import UnionType
-from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin
+from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin
 
 import msgspec
 
@@ -61,7 +58,8 @@ def opened(path: str | os.PathLike[str]) -> Iterator[tuple[Any, list[Problem]]]:
     source = os.fspath(path)
     try:
         raw, moved = (_json if is_json(source) else _toml)(lines, problems)
-        _check_levels(raw)
+        if _levels(raw) > MOST_LEVELS + 1:
+            raise RecursionError
     except (RecursionError, ValueError) as error:  # ValueError: an integer of thousands of digits
         reason = Problem(0, 0, "", TOO_DEEP if isinstance(error, RecursionError) else f"cannot be read: {error}")
         raise SceneError(source, problems=sorted(problems) or [reason]) from None
@@ -81,17 +79,15 @@ def opened(path: str | os.PathLike[str]) -> Iterator[tuple[Any, list[Problem]]]:
         raise error._placed(in_file) from None
 
 
-def _check_levels(raw: Any) -> None:
-    """A RecursionError where tables and lists lie too deep inside one another for the functions that read them."""
-    level, levels = [raw], 0
+def _levels(raw: Any) -> int:
+    """Number of levels of tables and lists inside one another, with that of their numbers."""
+    levels, level = 0, [raw]
     while level:
-        levels += 1
-        if levels > MOST_LEVELS + 1:
-            raise RecursionError
-        inside: list[Any] = []
+        levels, inside = levels + 1, []
         for each in level:
             inside += each.values() if isinstance(each, dict) else each if isinstance(each, list) else ()
         level = inside
+    return levels
 
 
 def is_json(source: str) -> bool:
@@ -230,10 +226,10 @@ def _repaired(line: str) -> tuple[str, int, str] | None:
     return None
 
 
-def convert(raw: Any, kind: type[Kind], source: str, problems: list[Problem] | None = None) -> Kind:
-    """`raw` as `kind`, a msgspec Struct.
+def convert(raw: Any, kind: type[Kind], source: str, problems: list[Problem]) -> Kind:
+    """`raw` as `kind`, a msgspec Struct. Errors are noted in `problems`, and the wrong values are left out.
 
-    All errors are raised as one SceneError; with `problems`, they are noted there and the wrong values are left out.
+    What cannot be read at all is raised as a SceneError.
     """
     if isinstance(raw, dict) and "vary" in _known_keys(kind) and (scene := [key for key in SYSTEMS if key in raw]):
         raise SceneError(source, scene[0], f"is of a scene, not of a study: revchain run {source}")
@@ -244,7 +240,7 @@ def convert(raw: Any, kind: type[Kind], source: str, problems: list[Problem] | N
         except msgspec.ValidationError as error:
             converted = _table(raw, kind, "", found)
             found = found or [Problem(0, 0, "", str(error))]
-            if problems is None or converted is msgspec.UNSET:
+            if converted is msgspec.UNSET:
                 raise SceneError(source, problems=found) from None
         msgspec.json.encode(converted)
     except UnicodeEncodeError as error:
@@ -254,8 +250,7 @@ def convert(raw: Any, kind: type[Kind], source: str, problems: list[Problem] | N
         raise
     except (RecursionError, OverflowError, ValueError) as error:
         raise SceneError(source, "", f"cannot be read: {error}") from None
-    if problems is not None:
-        problems += found
+    problems += found
     return converted
 
 
@@ -265,50 +260,37 @@ def _known_keys(kind: type) -> list[str]:
 
 def _table(raw: Any, kind: type, key: str, found: list[Problem]) -> Any:
     """A struct with the correct values of `raw`; UNSET if `raw` is not a table."""
-
-    def refuse(name: str, reason: str) -> None:
-        found.append(Problem(0, 0, joined(key, name) if name else key, reason))
-
     if not isinstance(raw, dict):
-        refuse("", f"must be a table, got {written(raw)}")
+        found.append(Problem(0, 0, key, f"must be a table, got {written(raw)}"))
         return msgspec.UNSET
     names = {field.encode_name: field for field in fields_of(kind)}
-    values: dict[str, Any] = {}
+    values = {field.name: msgspec.UNSET for field in names.values() if field.required}
     for name, value in raw.items():
         if not isinstance(name, str):
-            refuse("", "every key must be text")
-        elif name in names:
-            values[names[name].name] = _value(value, names[name].type, joined(key, name), found)
-        else:
-            refuse(name, f"unknown key; {_instead(name, kind)}")
-    for name, field in names.items():
-        if name not in raw and field.required:
-            values[field.name] = msgspec.UNSET
-            refuse(name, "is missing")
-    given = {names[each.encode_name].name: values[each.name] for each in names.values() if each.name in values}
-    wrong = [name for name, value in given.items() if value is msgspec.UNSET]
-    for name in wrong:
-        if not next(field for field in names.values() if field.name == name).required:
-            del given[name]
-    return kind(**given)
+            found.append(Problem(0, 0, key, "every key must be text"))
+        elif name not in names:
+            found.append(Problem(0, 0, joined(key, name), f"unknown key; {_instead(name, kind)}"))
+        elif (right := _value(value, names[name].type, joined(key, name), found)) is not msgspec.UNSET:
+            values[names[name].name] = right
+    missing = [name for name, field in names.items() if field.required and name not in raw]
+    found += [Problem(0, 0, joined(key, name), "is missing") for name in missing]
+    return kind(**values)
 
 
 def _value(raw: Any, annotation: Any, key: str, found: list[Problem]) -> Any:
     """A value of a table; UNSET if it does not fit."""
-    structs = [part for part in _parts_of(annotation) if isinstance(part, type) and issubclass(part, msgspec.Struct)]
-    lists = [part for part in _parts_of(annotation) if get_origin(part) is list and get_args(part)[0] in structs]
-    if lists and isinstance(raw, list) and raw:
-        nothing = structs[0](**{field.name: msgspec.UNSET for field in fields_of(structs[0]) if field.required})
-        items = [_table(item, structs[0], f"{key}[{k}]", found) for k, item in enumerate(raw)]
+    kind, form = _table_in(annotation)
+    if form is list and isinstance(raw, list) and raw:
+        nothing = kind(**{field.name: msgspec.UNSET for field in fields_of(kind) if field.required})
+        items = [_table(item, kind, f"{key}[{k}]", found) for k, item in enumerate(raw)]
         return [nothing if item is msgspec.UNSET else item for item in items]  # keeps the indices of the others
-    named = any(get_origin(part) is dict for part in _parts_of(annotation))
-    if structs and not lists and not named and isinstance(raw, dict):
-        return _table(raw, structs[0], key, found)
-    if structs and not lists and isinstance(raw, dict) and raw:
-        tables = {name: _table(each, structs[0], joined(key, name), found) for name, each in raw.items()}
+    if form is dict and isinstance(raw, dict) and raw:
+        tables = {name: _table(each, kind, joined(key, name), found) for name, each in raw.items()}
         return {name: table for name, table in tables.items() if table is not msgspec.UNSET}
+    if kind and form not in (list, dict) and isinstance(raw, dict):
+        return _table(raw, kind, key, found)
     try:
-        return msgspec.convert(raw, _set(annotation))
+        return msgspec.convert(raw, annotation)
     except (msgspec.ValidationError, OverflowError) as error:
         sentence, _, path = str(error).partition(" - at `$")
         found.append(Problem(0, 0, key + path.rstrip("`"), _reason(sentence, key, raw, path.rstrip("`"), annotation)))
@@ -317,16 +299,12 @@ def _value(raw: Any, annotation: Any, key: str, found: list[Problem]) -> Any:
     return msgspec.UNSET
 
 
-@cache
-def _set(annotation: Any) -> Any:
-    """The annotation without the type of a missing key."""
-    if msgspec.UnsetType not in _parts_of(annotation):
-        return annotation
-    if get_origin(annotation) is Annotated:
-        return _set(get_args(annotation)[0])
-    if get_origin(annotation) in (Union, UnionType):
-        return Union[tuple(part for part in get_args(annotation) if part is not msgspec.UnsetType)]
-    return annotation
+def _table_in(annotation: Any) -> tuple[Any, Any]:
+    """The kind of table inside an annotation, and whether it holds a list or a dict of them; None for what it has not."""
+    parts = list(_parts_of(annotation))
+    kind = next((part for part in parts if isinstance(part, type) and issubclass(part, msgspec.Struct)), None)
+    forms = [get_origin(part) for part in parts if kind and kind in get_args(part)]
+    return kind, next((form for form in forms if form in (list, dict)), None)
 
 
 _GYRATION = "give radius_of_gyration, the square root of inertia / mass, about the centre of gravity"
@@ -388,7 +366,7 @@ def _reason(sentence: str, key: str, raw: Any, path: str, annotation: Any) -> st
         return choice(words_allowed, int in parts, value)
     if "array` of length" in sentence:
         return f"must be a pair {'[mean, deviation]' if key.endswith('normal') else '[low, high]'}{got}"
-    structs = any(isinstance(part, type) and issubclass(part, msgspec.Struct) for part in parts)
+    structs = _table_in(annotation)[0] is not None
     lists = any(get_origin(part) in (list, tuple) for part in parts)
     if not isinstance(value, list) and lists and structs and not path:
         if isinstance(value, dict):
@@ -469,27 +447,24 @@ def _annotation_at(kind: type, key: str) -> Any:
     """The type of the value at a key path; None if there is no such key."""
     found: Any = kind
     for name in re.findall(r"[^.\[\]]+", re.sub(r"\[\d+\]", "", key)):
-        structs = [part for part in _parts_of(found) if isinstance(part, type) and issubclass(part, msgspec.Struct)]
-        fields = [field for struct in structs[:1] for field in fields_of(struct) if field.encode_name == name]
-        found = fields[0].type if fields else None
+        kind = _table_in(found)[0]
+        found = next((field.type for field in fields_of(kind) if field.encode_name == name), None) if kind else None
     return found
 
 
 def without_consequences(problems: Iterable[Problem]) -> list[Problem]:
     """The problems without those of a table that follow from a problem of one of its keys."""
-    kept: list[Problem] = []
-    ordered: list[tuple[str, str]] = []  # keys and reasons of those kept, sorted
-    there: set[str] = set()
+    remaining: list[Problem] = []
+    inside = defaultdict[str, list[tuple[str, str]]](list)  # by table: last part of the key and reason of its problems
+    known: set[str] = set()
     for problem in problems:
         key = problem.key
-        ends = [bisect(ordered, (key + mark,)) for mark in "./[\\"]  # each pair of marks follow one another in Unicode
-        inside = chain(ordered[ends[0] : ends[1]], ordered[ends[2] : ends[3]])
-        because = key and any(
-            reason.startswith("unknown key") or name.rpartition(".")[2] in problem.reason for name, reason in inside
-        )
-        if not because and key not in there:
-            kept.append(problem)
-            insort(ordered, (key, problem.reason))
-            if key and ": line " not in problem.reason:  # what is wrong with another file has one key
-                there.add(key)
-    return kept
+        because = any(reason.startswith("unknown key") or name in problem.reason for name, reason in inside[key])
+        if because or key in known:
+            continue
+        remaining.append(problem)
+        for mark in re.finditer(r"[.\[]", key):
+            inside[key[: mark.start()]].append((key.rpartition(".")[2], problem.reason))
+        if key and ": line " not in problem.reason:  # what is wrong with another file has one key
+            known.add(key)
+    return remaining

@@ -155,7 +155,7 @@ class Scene(Tables, frozen=True, weakref=True):
         Raises
         ------
         SceneError
-            If `gravity` is not a positive acceleration.
+            If the numbers do not describe a possible system, or gravity is not a positive acceleration.
 
         Examples
         --------
@@ -163,10 +163,7 @@ class Scene(Tables, frozen=True, weakref=True):
         >>> rc.Scene.from_dict({"gravity": "981 cm/s^2", "links": [{"mass": 1, "length": 1}]}).gravity_value()
         9.81
         """
-        numbers = Numbers("scene")
-        gravity = numbers.value("gravity", self.gravity, "gravity", "positive")
-        numbers.done()
-        return gravity
+        return self._built()[1]
 
     def system(self) -> System:
         """Return the system of the scene in SI units, by mass, or by weight if the scene has a weight.
@@ -269,28 +266,25 @@ class Scene(Tables, frozen=True, weakref=True):
             _MADE[key] = weakref.ref(self, lambda _, made=_MADE: made.pop(key, None)), {}  # type: ignore[misc]
         return _MADE[key][1]
 
-    def _built(self) -> tuple[System, float]:
+    def _built(self, source: str = "scene") -> tuple[System, float]:
         """The system and the gravity, made once. All problems are raised as one error."""
         made = self._made()
         if "system" not in made:
-            made["system"] = system_of(self, "scene")
+            made["system"] = system_of(self, source)
         built: tuple[System, float] = made["system"]
         return built
 
     def _problems(self, source: str, known: list[Problem]) -> list[Problem]:
-        """All problems of the scene, with those already known; if there are none, what is made on the way is kept."""
-        numbers, made = Numbers(source), dict[str, Any](system=(None, 0.0))
+        """All problems of the scene, with those already known; if there are none, its cache is full."""
+        numbers, system = Numbers(source), None
         given = [name for name in SYSTEMS if getattr(self, name) is not UNSET]
         if given or all(re.split(r"[.\[]", problem.key)[0] in ("", *BESIDE) for problem in known):
             try:
-                made["system"] = system_of(self, source)
+                system, _ = self._built(source)
             except SceneError as error:
                 numbers.problems[:] = error.problems
         for question in self.asks:
-            made[question] = arguments(question, getattr(self.ask, question), made["system"][0], numbers)
-        if not known and not numbers.problems:
-            self._made().update(made)
-            return []
+            self._made()[question] = arguments(question, getattr(self.ask, question), system, numbers)
         return parse.without_consequences([*known, *numbers.problems])
 
 
