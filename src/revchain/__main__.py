@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import sys
 
-from .cli.exit_codes import ExitCode
+from .cli import ExitCode
 
 NEEDED = ("typer", "rich", "msgspec")
 

@@ -24,7 +24,7 @@ from revchain.cli import app as _cli
 from revchain.cli import ask as _ask
 from revchain.cli import report as _report
 from revchain.cli import sweep as _cli_sweep
-from revchain.cli.exit_codes import MEANING, ExitCode
+from revchain.cli import MEANING, ExitCode
 from revchain.cli.frame import USE
 from revchain.scenes import answer as _answer
 from revchain.scenes.scene import json_schema

@@ -13,8 +13,8 @@ import typer
 from ..motion.write import METHODS, require_for
 from ..results.files import written_aside
 from ..scenes.tables import QUESTIONS
-from .ask import Gravity, Quiet, SceneFile, answer_of, read_scene, refuse_without_answer
-from .exit_codes import ExitCode
+from .ask import Gravity, Quiet, SceneFile, answer_of, read_scene
+from . import ExitCode
 from .frame import Stop, app, epilog, guarded
 from .progress import counted
 from .report import Report
@@ -75,7 +75,6 @@ def animate(
     asked = question or next(iter(each for each in read.asks if each in QUESTIONS), "modes")
     if asked not in QUESTIONS:
         raise Stop(f"--ask: must be one of {', '.join(QUESTIONS)}, got {asked}", ExitCode.WRONG_USAGE)
-    refuse_without_answer(scene, read, asked)
     with written_aside(out) as [aside], ExitStack() as stack:
         found = answer_of(scene, read, asked, {}, quiet)
         try:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import inspect
 import re
 import sys
+from contextlib import suppress
 from pathlib import Path
 from typing import Annotated, Any, Literal, get_args, get_origin
 
@@ -21,7 +22,7 @@ from ..scenes.parse import is_json, text_of
 from ..scenes.places import places_in
 from ..scenes.scene import EXCLUSIVE, Scene, load_scene, read
 from ..systems.extras import require
-from .exit_codes import ExitCode
+from . import ExitCode
 from .frame import STDOUT, Stop, app, epilog, guarded, outputs_of
 from .progress import watched
 from .report import Report
@@ -160,10 +161,8 @@ def _meant(field: structs.FieldInfo, given: Any) -> Any:
 def _number(text: str) -> Any:
     """A number, or the text."""
     for kind in (int, float):
-        try:
+        with suppress(ValueError):
             return kind(text)
-        except ValueError:
-            pass
     return text.strip()
 
 
@@ -190,7 +189,6 @@ def _answer(
     quiet: bool,
 ) -> Report:
     """Answer one question and write the files. The outputs are opened first."""
-    refuse_without_answer(path, scene, question)
     with written_aside(*[place for place, _ in outputs]) as asides:
         found = answer_of(path, scene, question, changed, quiet)
         report = Report(scene, path.stem, found, units)
@@ -198,21 +196,17 @@ def _answer(
     return report
 
 
-def refuse_without_answer(path: Path, scene: Scene, question: str) -> None:
-    """Stop where a question has no answer for what hangs."""
+def answer_of(path: Path, scene: Scene, question: str, changed: dict[str, Any], quiet: bool) -> Any:
+    """The result, with a bar while modes are found. Stop where the system has no answer."""
     if sentence := without_answer(question, scene.system(), path):
         raise Stop(f"{path}: {sentence}", ExitCode.WRONG_USAGE)
-
-
-def answer_of(path: Path, scene: Scene, question: str, changed: dict[str, Any], quiet: bool) -> Any:
-    """The result, with a bar while modes are found."""
     try:
         if question == "modes":
             return watched(lambda progress: scene._answer(question, changed, progress), Console(stderr=True), quiet)
         return scene._answer(question, changed)
     except SceneError as error:
-        said = [f"{path}: {_said(each.key, each.reason, question, changed, path)}" for each in error.problems]
-        raise Stop("\nrevchain: ".join(said), ExitCode.WRONG_USAGE) from None
+        lines = [f"{path}: {_line(each.key, each.reason, question, changed, path)}" for each in error.problems]
+        raise Stop("\nrevchain: ".join(lines), ExitCode.WRONG_USAGE) from None
 
 
 def _show(report: Report, outputs: list[tuple[Path, str]], heading: bool = True) -> None:
@@ -221,7 +215,7 @@ def _show(report: Report, outputs: list[tuple[Path, str]], heading: bool = True)
     print(f"wrote {', '.join([str(place) for place, _ in outputs])}\n" if outputs else "", end="")
 
 
-def _said(key: str, reason: str, question: str, changed: dict[str, Any], path: Path) -> str:
+def _line(key: str, reason: str, question: str, changed: dict[str, Any], path: Path) -> str:
     """The sentence for a problem of an option or of the scene."""
     option = re.split(r"[.\[]", name := key.removeprefix(f"ask.{question}."))[0]
     if option in changed:

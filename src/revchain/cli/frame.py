@@ -15,7 +15,7 @@ import typer
 from ..plots.style import plain
 from ..scenes.error import SceneError
 from ..systems.extras import require
-from .exit_codes import MEANING, ExitCode
+from . import MEANING, ExitCode
 
 Arguments = ParamSpec("Arguments")
 

@@ -24,7 +24,7 @@ from ..results.motions import Response, Swing
 from ..results.sheet import Column, Sheet, as_csv, as_dict, cells
 from ..scenes.system import in_file
 from ..scenes.scene import Scene
-from .exit_codes import ExitCode
+from . import ExitCode
 from .frame import PICTURES, Stop, save_picture
 
 NARROWEST = 80  # smallest width of a terminal in columns; numbers are never cut

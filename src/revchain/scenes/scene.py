@@ -237,7 +237,7 @@ class Scene(Tables, frozen=True, weakref=True):
             given = arguments(question, self._table(question, changed), system, numbers)
             numbers.done()
         try:
-            return answered(question, system, dict(given), gravity, progress)
+            return answered(question, system, given, gravity, progress)
         except ValueError as error:
             raise SceneError("scene", problems=[problem_of(error, "", self._bodies())]) from None
 
@@ -283,8 +283,9 @@ class Scene(Tables, frozen=True, weakref=True):
                 system, _ = self._built(source)
             except SceneError as error:
                 numbers.problems[:] = error.problems
-        for question in self.asks:
-            self._made()[question] = arguments(question, getattr(self.ask, question), system, numbers)
+        found = {name: arguments(name, getattr(self.ask, name), system, numbers) for name in self.asks}
+        if not numbers.problems:
+            self._made().update(found)
         return parse.without_consequences([*known, *numbers.problems])
 
 
