@@ -83,7 +83,7 @@ def _levels(raw: Any) -> int:
     """Number of levels of tables and lists inside one another, with that of their numbers."""
     levels, level = 0, [raw]
     while level:
-        levels, inside = levels + 1, []
+        levels, inside = levels + 1, list[Any]()
         for each in level:
             inside += each.values() if isinstance(each, dict) else each if isinstance(each, list) else ()
         level = inside
