@@ -72,17 +72,17 @@ def animate(
         raise Stop(f"--frames-per-second: a {ending} file has no frames; leave it out", ExitCode.WRONG_USAGE)
     which = None if figures is None else _numbers(figures)
     read = read_scene(scene, gravity, "deg")
-    asked = question or next(iter(each for each in read.asks if each in QUESTIONS), "modes")
-    if asked not in QUESTIONS:
-        raise Stop(f"--ask: must be one of {', '.join(QUESTIONS)}, got {asked}", ExitCode.WRONG_USAGE)
+    shown = question or next(iter(each for each in read.asks if each in QUESTIONS), "modes")
+    if shown not in QUESTIONS:
+        raise Stop(f"--ask: must be one of {', '.join(QUESTIONS)}, got {shown}", ExitCode.WRONG_USAGE)
     with written_aside(out) as [aside], ExitStack() as stack:
-        found = answer_of(scene, read, asked, {}, quiet)
+        found = answer_of(scene, read, shown, {}, quiet)
         try:
             getattr(found, METHODS[ending])(aside, figures=which, progress=counted(stack, "frames", quiet), **given)
-        except OSError as error:  # says the place that was asked for
+        except OSError as error:  # names the file of the user, not the temporary one
             raise OSError(error.errno, error.strerror or str(error), str(out)) from None
         except ValueError as error:
-            raise Stop(f"{scene}: {asked}: {str(error).partition(': ')[2]}", ExitCode.WRONG_USAGE) from None
+            raise Stop(f"{scene}: {shown}: {str(error).partition(': ')[2]}", ExitCode.WRONG_USAGE) from None
     if not quiet:
         print(f"wrote {out}")
     Report(read, scene.stem, found, "deg").check(scene)

@@ -19,7 +19,7 @@ from ..scenes.tables import QUESTIONS, AskExplain, Pair, Spread, Table, fields_o
 from ..scenes.system import Numbers, System
 from ..scenes.error import SceneError
 from ..scenes.parse import is_json, text_of
-from ..scenes.places import places_in
+from ..scenes.positions import positions_in
 from ..scenes.scene import EXCLUSIVE, Scene, load_scene, read
 from ..systems.extras import require
 from . import ExitCode
@@ -82,7 +82,7 @@ def run(
 
 
 def _command(question: str, table: type[Table], summary: str) -> None:
-    """Make the command of a question."""
+    """Add the command of a question, with an option for each key of its table."""
 
     def command(scene: Path, **given: Any) -> None:
         common = {name: given.pop(name) for name in COMMON if name in given}
@@ -112,7 +112,7 @@ def _command(question: str, table: type[Table], summary: str) -> None:
 
 
 def _option(field: structs.FieldInfo, of_modes: bool) -> Any:
-    """The option for a key of a table."""
+    """The option of a command that stands for a key of a table."""
     help_text = next(part.description for part in get_args(field.type) if isinstance(part, Meta)) or ""
     if of_modes and field.name in EXCLUSIVE:
         help_text += " The count, first and windows of the scene do not apply."
@@ -159,7 +159,7 @@ def _meant(field: structs.FieldInfo, given: Any) -> Any:
 
 
 def _number(text: str) -> Any:
-    """A number, or the text."""
+    """The text as a number if it is one, else without blanks around it."""
     for kind in (int, float):
         with suppress(ValueError):
             return kind(text)
@@ -189,7 +189,7 @@ def _answer(
     quiet: bool,
 ) -> Report:
     """Answer one question and write the files. The outputs are opened first."""
-    with written_aside(*[place for place, _ in outputs]) as asides:
+    with written_aside(*[file for file, _ in outputs]) as asides:
         found = answer_of(path, scene, question, changed, quiet)
         report = Report(scene, path.stem, found, units)
         report.write(outputs, asides)
@@ -212,7 +212,7 @@ def answer_of(path: Path, scene: Scene, question: str, changed: dict[str, Any], 
 def _show(report: Report, outputs: list[tuple[Path, str]], heading: bool = True) -> None:
     """Print the tables and the names of the written files."""
     report.print(Console(), heading)
-    print(f"wrote {', '.join([str(place) for place, _ in outputs])}\n" if outputs else "", end="")
+    print(f"wrote {', '.join([str(file) for file, _ in outputs])}\n" if outputs else "", end="")
 
 
 def _line(key: str, reason: str, question: str, changed: dict[str, Any], path: Path) -> str:
@@ -221,7 +221,7 @@ def _line(key: str, reason: str, question: str, changed: dict[str, Any], path: P
     if option in changed:
         return f"--{name.replace('_', '-')}: {reason}"
     if key.startswith("links["):
-        line, column = places_in(text_of(path), is_json(str(path)))(key)
+        line, column = positions_in(text_of(path), is_json(str(path)))(key)
         key = f"line {line}, column {column}: {key}"
     return f"{key}: {reason}" if key else reason
 

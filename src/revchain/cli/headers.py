@@ -38,9 +38,9 @@ def cmake_prefix() -> str:
 
     In a shell: ``cmake -S . -B build -DCMAKE_PREFIX_PATH=$(python -m revchain --cmake-prefix)``.
     """
-    for place in revchain.__path__:
-        if (Path(place) / "share" / "cmake" / "revchain").is_dir():
-            return str(Path(place).resolve())
+    for folder in revchain.__path__:
+        if (Path(folder) / "share" / "cmake" / "revchain").is_dir():
+            return str(Path(folder).resolve())
     raise FileNotFoundError(
         f"revchain.cmake_prefix: no C++ headers in {', '.join(revchain.__path__)}; install a wheel of revchain, or the C++ "
         "library by CMake or by a package of your system, and give its folder to CMake"

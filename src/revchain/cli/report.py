@@ -45,7 +45,7 @@ class Report:
 
     @cached_property
     def tables(self) -> list[tuple[Text | None, Table | None]]:
-        """The printed tables: heading and grid of each."""
+        """The printed tables: the heading and the grid of each, None where it has none."""
         sheets: list[Sheet] = [self.sheet]
         for name in ("certificate", "other"):
             part = getattr(self.found, name, None)
@@ -79,16 +79,16 @@ class Report:
         raise Stop(f"{path}: {what}", ExitCode.TOLERANCE_NOT_MET)
 
     def write(self, outputs: list[tuple[Path, str]], asides: list[Path]) -> None:
-        """Write the outputs, each a place and its kind, to the temporary files beside them."""
-        for aside, (place, kind) in zip(asides, outputs, strict=True):
+        """Write the outputs, each a file and its kind, to the temporary files beside them."""
+        for aside, (file, kind) in zip(asides, outputs, strict=True):
             try:
                 if kind in PICTURES:
                     axes = self.found.plot(**_drawn(self.found))
                     save_picture(axes, self.title, aside)
                 else:
                     aside.write_text(self.text(kind), encoding="utf-8")
-            except OSError as error:  # says the place that was asked for, or none
-                raise OSError(error.errno, error.strerror or str(error), str(place)) from None
+            except OSError as error:  # may name the temporary file, or none
+                raise OSError(error.errno, error.strerror or str(error), str(file)) from None
 
     def text(self, kind: str) -> str:
         """The report as ``.txt``, or all numbers as ``.json`` or ``.csv``."""

@@ -69,7 +69,7 @@ class Mechanism:
 
     @property
     def size(self) -> int:
-        """Number of links."""
+        """The number of links in the chain."""
         return len(self.names)
 
     @property
@@ -79,7 +79,7 @@ class Mechanism:
 
     @property
     def reach(self) -> float:
-        """Greatest distance from the axis."""
+        """The greatest possible distance from the axis, in metres."""
         return float(self.length.sum()) + self.radius
 
     def part(self, k: int, what: str) -> str:
@@ -147,7 +147,7 @@ def mechanism(function: str, given: Any, gravity: float | None) -> tuple[Mechani
 
 
 def _bodies(function: str, rig: Rig, gravity: float) -> tuple[Mechanism, Floats, Floats]:
-    """The bodies; angular momentum that links keep, and their axial moments of inertia."""
+    """The bodies, the constant angular momentum of each link along its axis, and the axial moments of inertia."""
     chain = rig.chain
     if chain.mode_count < chain.size:
         raise ValueError(
@@ -196,7 +196,7 @@ def radius_of_gyration(moment: float, mass: float, added: float = 0.0) -> float:
 
 
 def _names(chain: Chain) -> tuple[str, ...]:
-    """Names of the links: all different, none that of a part of the support. The first link of a name keeps it."""
+    """Names of the links: all different, and none that of a part of the support. Later links of a name get a number."""
     names: list[str] = []
     given = chain.names or [f"link_{k}" for k in range(chain.size)]
     taken = {*PARTS, ""}

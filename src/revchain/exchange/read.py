@@ -226,7 +226,7 @@ class _Model:
         raise ValueError(f"{self.function}: {why}")
 
     def _name(self, kind: str, number: int) -> str:
-        """The name of a body or joint, for messages."""
+        """The name of a body or joint as messages have it."""
         name = getattr(self.model, kind)(number).name
         return f"{kind} {name!r}" if name else f"{kind} number {number}"
 
@@ -236,7 +236,7 @@ class _Model:
         return [j for j in range(first, first + int(self.model.body_jntnum[body])) if j != self.turn]
 
     def _path(self) -> list[int]:
-        """Bodies with joints, from the support down."""
+        """The bodies with joints, from the support down; refuses a model that is no serial chain."""
         bodies: list[int] = []
         here = 0
         while True:
@@ -340,7 +340,7 @@ class _Model:
         return flat.reshape(3, 3)
 
     def _free_end(self, body: int, pin: Floats) -> Floats:
-        """The free end: a body without mass, the only site, or the end of the geoms in the direction of the centre of gravity."""
+        """The free end: a body without mass, the only site, or the end of the geoms beyond the centre of gravity."""
         model, marks = self.model, self.children[body]
         sites = np.flatnonzero(model.site_bodyid == body)
         if len(marks) == 1:

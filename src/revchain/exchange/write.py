@@ -148,7 +148,7 @@ def to_urdf(
 
 
 def _written(function: str, model: Xml.Element, path: str | os.PathLike[str] | None) -> str:
-    """The text of a model, in a file too where there is a path."""
+    """Return the text of a model; write it to a file if there is a path."""
     Xml.indent(model)
     text = Xml.tostring(model, encoding="unicode") + "\n"
     if path is not None:
@@ -243,7 +243,7 @@ def _rod(body: Xml.Element, end: Any, size: float) -> None:
 
 
 def _keyframe(made: Mechanism, state: State) -> tuple[list[float], list[float]]:
-    """Positions and velocities of all joints."""
+    """The positions and the velocities of all joints in a state."""
     at, rate = [0.0], [state.speed]
     if made.yields:
         at, rate = [*at, state.give, 0.0], [*rate, 0.0, 0.0]

@@ -89,7 +89,8 @@ def _modes(table: Table, given: Given, system: System | None, numbers: Numbers) 
         low, high = given[name]
         if low >= high:
             numbers.refuse(name, f"its low end must lie below its high end, got {written(getattr(table, name))}")
-    available, first, count = None if system is None else system.mode_count, given.get("first", 1), given.get("count", 1)
+    available = None if system is None else system.mode_count
+    first, count = given.get("first", 1), given.get("count", 1)
     if available is not None and first > available:
         numbers.refuse("first", f"must be at most {available}, got {first}")
     elif available is not None and count != "all" and count > available - first + 1:

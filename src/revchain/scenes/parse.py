@@ -18,7 +18,7 @@ import msgspec
 from ..systems.numbers import file_path
 from ..systems.units import SI, si_value
 from .error import Problem, SceneError
-from .places import joined, places_in
+from .positions import joined, positions_in
 from .tables import BESIDE, QUESTIONS, SYSTEMS, Link, fields_of
 
 Kind = TypeVar("Kind")
@@ -30,7 +30,7 @@ TOO_DEEP = f"tables and lists lie more than {MOST_LEVELS} levels deep; remove br
 
 
 def text_of(path: str | os.PathLike[str]) -> str:
-    """The text of a file."""
+    """Read the text of a file; line ends become newlines."""
     source = file_path("revchain", "the scene or study", path)
     try:
         with open(source, "rb") as file:
@@ -68,15 +68,15 @@ def opened(path: str | os.PathLike[str]) -> Iterator[tuple[Any, list[Problem]]]:
     except SceneError as error:
         if error.source != source:
             raise
-        place = places_in("\n".join(lines), is_json(source))
+        position = positions_in("\n".join(lines), is_json(source))
 
         def in_file(key: str) -> tuple[int, int]:
-            line, column = place(key)
+            line, column = position(key)
             for at, start, more in reversed(moved):
                 column -= more if at == line and column > start + 1 else 0
             return line, column
 
-        raise error._placed(in_file) from None
+        raise error._located(in_file) from None
 
 
 def _levels(raw: Any) -> int:
@@ -120,7 +120,7 @@ def _toml(lines: list[str], problems: list[Problem]) -> tuple[Any, Moved]:
         try:
             return tomllib.loads("\n".join(lines)), moved
         except tomllib.TOMLDecodeError as error:
-            line, column, reason = _place_of_toml_error(str(error), lines)
+            line, column, reason = _read_toml_error(str(error), lines)
         right, wrong = lines.copy(), lines[line - 1]
         if reason == LINKS_TWICE:
             right = [re.sub(r"^(\s*)\[\[?links\]+", r"\1[[links]]", each) for each in lines]
@@ -150,7 +150,7 @@ _IN_PLAIN_WORDS = {
 LINKS_TWICE = "[links] is there twice: write [[links]], with two brackets, above each link"
 
 
-def _place_of_toml_error(message: str, lines: list[str]) -> tuple[int, int, str]:
+def _read_toml_error(message: str, lines: list[str]) -> tuple[int, int, str]:
     found = re.fullmatch(r"(.*) \(at (?:line (\d+), column (\d+)|end of document)\)", message, re.DOTALL)
     reason = message if found is None else _IN_PLAIN_WORDS.get(found[1], found[1])
     if found is None or not found[2]:
@@ -278,12 +278,12 @@ def _table(raw: Any, kind: type, key: str, found: list[Problem]) -> Any:
 
 
 def _value(raw: Any, annotation: Any, key: str, found: list[Problem]) -> Any:
-    """A value of a table; UNSET if it does not fit."""
+    """The checked value of a key of a table; UNSET if it does not fit its type."""
     kind, form = _table_in(annotation)
     if form is list and isinstance(raw, list) and raw:
         nothing = kind(**{field.name: msgspec.UNSET for field in fields_of(kind) if field.required})
         items = [_table(item, kind, f"{key}[{k}]", found) for k, item in enumerate(raw)]
-        return [nothing if item is msgspec.UNSET else item for item in items]  # keeps the indices of the others
+        return [nothing if item is msgspec.UNSET else item for item in items]  # the others have their indices
     if form is dict and isinstance(raw, dict) and raw:
         tables = {name: _table(each, kind, joined(key, name), found) for name, each in raw.items()}
         return {name: table for name, table in tables.items() if table is not msgspec.UNSET}
@@ -300,7 +300,7 @@ def _value(raw: Any, annotation: Any, key: str, found: list[Problem]) -> Any:
 
 
 def _table_in(annotation: Any) -> tuple[Any, Any]:
-    """The kind of table inside an annotation, and whether it holds a list or a dict of them; None for what it has not."""
+    """The kind of table inside an annotation, or None; then `list` or `dict` if it is for several tables, or None."""
     parts = list(_parts_of(annotation))
     kind = next((part for part in parts if isinstance(part, type) and issubclass(part, msgspec.Struct)), None)
     forms = [get_origin(part) for part in parts if kind and kind in get_args(part)]
@@ -335,7 +335,7 @@ EXAMPLES = {"vary": 'say what varies, such as vary."links[0].mass" = {values = [
 
 
 def _instead(name: str, kind: type) -> str:
-    """The hint for an unknown key."""
+    """The end of the message for an unknown key: what to write instead."""
     known = _known_keys(kind)
     if name in QUESTIONS and "ask" in known:
         return f"write [ask.{name}]"
@@ -351,7 +351,7 @@ def _instead(name: str, kind: type) -> str:
 
 
 def _reason(sentence: str, key: str, raw: Any, path: str, annotation: Any) -> str:
-    """A sentence of msgspec in the terms of a scene file."""
+    """An error message of msgspec in the words of a scene file."""
     value = _at(raw, path)
     got = f", got {written(value)}"
     limit = re.fullmatch(r"Expected `\w+` (>|>=|<=) (\S+)", sentence)
@@ -429,14 +429,14 @@ def written(value: Any, width: int = 60) -> str:
 
 
 def _at(raw: Any, path: str) -> Any:
-    """The item at a path such as ``[1]``."""
+    """The item of a list at a path such as ``[1]``."""
     for index in re.findall(r"\[(\d+)\]", path):
         raw = raw[int(index)]
     return raw
 
 
 def _parts_of(annotation: Any) -> Iterator[Any]:
-    """The annotation and everything inside it."""
+    """The annotation itself, and each type inside it."""
     yield annotation
     if get_origin(annotation) is not Literal:
         for argument in get_args(annotation):

@@ -329,7 +329,7 @@ def load_scene(path: str | os.PathLike[str]) -> Scene:
 
 
 def read(path: str | os.PathLike[str], changed: dict[str, Any]) -> Scene:
-    """The scene of a file, with other values of some of its keys."""
+    """Read the scene of a file, with other values of some of its keys."""
     with parse.opened(path) as (raw, problems):
         return Scene._read(raw | changed if isinstance(raw, dict) else raw, os.fspath(path), problems)
 

@@ -90,18 +90,19 @@ class Numbers:
                 self.refuse(key, "is an empty list")
             return np.array([self.value(f"{key}[{k}]", each, key, sign) for k, each in enumerate(given)])
         if isinstance(given, Spread):
-            first, last = self.value(f"{key}.from", given.first, key, sign), self.value(f"{key}.to", given.last, key, sign)
+            ends = {"from": given.first, "to": given.last}
+            first, last = [self.value(f"{key}.{name}", end, key, sign) for name, end in ends.items()]
             if given.log and first * last <= 0:
                 self.refuse(f"{key}.log", "equal ratios need ends that are not 0 and have the same sign")
                 return math.nan
             return (np.geomspace if given.log else np.linspace)(first, last, given.steps)
-        if isinstance(given, str) and (ends := re.fullmatch(r"(\S.*?)\s+to\s+(.+)", given)):
-            self.refuse(key, f'a range is written {{from = "{ends[1]}", to = "{ends[2]}"}}, got "{given}"')
+        if isinstance(given, str) and (words := re.fullmatch(r"(\S.*?)\s+to\s+(.+)", given)):
+            self.refuse(key, f'a range is written {{from = "{words[1]}", to = "{words[2]}"}}, got "{given}"')
             return math.nan
         return self.value(key, given, key, sign)
 
     def read(self, table: Table | UnsetType) -> Given:
-        """All numbers given in the table, by key. What is heavy has the key of a mass or of a weight, as the scene has it."""
+        """All numbers given in the table, by key; what is heavy under the keys of masses, or else of weights."""
         found: Given = {}
         if isinstance(table, UnsetType):
             return found
@@ -115,7 +116,7 @@ class Numbers:
         return found
 
     def _weigh(self, table: Table, prefix: str, found: Given) -> None:
-        """Put one mass or weight in the place of both keys with a prefix; none where it may be left out."""
+        """Replace mass and weight, the keys with a prefix, by one of them; by none where it may be left out."""
         given = {name: found.pop(name) for name in (f"{prefix}weight", f"{prefix}mass") if name in found}
         optional = prefix or isinstance(table, tables.Support)
         [key, *others] = given or [""]
@@ -189,7 +190,7 @@ def _whole(table: tables.Whole, numbers: Numbers) -> Chain | Cord | None:
 
 
 def _chain_of_links(links: Links, numbers: Numbers) -> Chain | None:
-    """The chain of the links; None as for `_whole`."""
+    """The chain that the links make; None if a number is wrong, which is noted already."""
     repeats = [link.repeat for _, link in links]
     if (count := sum(repeats)) > MOST_LINKS:
         more = "use fewer and longer links, or [cord]"
@@ -211,7 +212,8 @@ def _chain_of_links(links: Links, numbers: Numbers) -> Chain | None:
     try:
         chain = Chain(**given, names=[name or f"links[{k}]" for k, name in enumerate(names)] or None)
         firsts = accumulate(repeats[:-1], initial=0)
-        for first, tip, (_, link) in list(zip(firsts, tips, links, strict=True))[::-1]:  # so that pins keep their numbers
+        from_above = list(zip(firsts, tips, links, strict=True))[::-1]  # so that the numbers of lower pins stay valid
+        for first, tip, (_, link) in from_above:
             if tip:
                 chain = chain.with_body(**{numbers.heavy: tip}, pin=first)
             if link.clamped:
@@ -278,7 +280,8 @@ def _rig(chain: Chain | None, scene: Tables, numbers: Numbers) -> Rig | None:
     wheels, fluids = [], []
     for (index, link), first in zip(links, accumulate(repeats, initial=0), strict=False):
         inside = numbers.of(f"links[{index}]")
-        wheels.append({heavy: 0.0, "radius_of_gyration": 0.0, "spin": 0.0} | _flywheel(link.flywheel, inside.of("flywheel")))
+        wheel = {heavy: 0.0, "radius_of_gyration": 0.0, "spin": 0.0}
+        wheels.append(wheel | _flywheel(link.flywheel, inside.of("flywheel")))
         fluid = {heavy: 0.0, added: 0.0}
         if chain is not None:
             fluid |= {name: getattr(chain, name)[first] for name in ("centroid", "radius_of_gyration")}
@@ -308,7 +311,7 @@ def _rig(chain: Chain | None, scene: Tables, numbers: Numbers) -> Rig | None:
 
 
 def _support(table: tables.Support | UnsetType, numbers: Numbers) -> Given:
-    """The arguments of a `Support`."""
+    """The arguments of a `Support`, from its table."""
     found = numbers.read(table)
     if found.get(numbers.heavy, 0.0) > 0 and "stiffness" not in found:
         numbers.refuse("stiffness", "is missing: what moves sideways needs a support that yields")
@@ -316,7 +319,7 @@ def _support(table: tables.Support | UnsetType, numbers: Numbers) -> Given:
 
 
 def _flywheel(table: tables.Flywheel | UnsetType, numbers: Numbers) -> Given:
-    """The numbers of a `Flywheel`; none where there is none."""
+    """The numbers of a `Flywheel`; empty if the link has none."""
     found = numbers.read(table)
     if not isinstance(table, UnsetType):
         heavy, radius, spin = (found[name] for name in (numbers.heavy, "radius_of_gyration", "spin"))

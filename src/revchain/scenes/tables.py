@@ -12,7 +12,7 @@ from ..systems.units import PATTERN
 
 
 def says(text: str) -> Meta:
-    """The text that editors show for a key."""
+    """Metadata of a key: the text that editors show for it."""
     return Meta(description=text)
 
 
