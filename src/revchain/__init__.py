@@ -85,7 +85,7 @@ from .systems.rig import Rig as Rig
 from .systems.rig import Support as Support
 
 if _TYPE_CHECKING:
-    from .cli.headers import cmake_prefix as cmake_prefix
+    from .cli import cmake_prefix as cmake_prefix
     from .closed_forms import conical_pendulum as conical_pendulum
     from .closed_forms import elliptic as elliptic
     from .closed_forms import hoop as hoop
@@ -133,7 +133,7 @@ _LATER = dict.fromkeys(_CLOSED_FORMS, "closed_forms") | {
     "TransverseModes": "closed_forms.statics",
     "funicular_polygon": "closed_forms.statics",
     "transverse_modes": "closed_forms.statics",
-    "cmake_prefix": "cli.headers",
+    "cmake_prefix": "cli",
     "load": "results.storage",
     "to_mjcf": "exchange.write",
     "to_urdf": "exchange.write",

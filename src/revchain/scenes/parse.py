@@ -330,8 +330,6 @@ INSTEAD = {
     "density": "give the mass",
     "diameter": "give radius_of_gyration",
 }
-TABLES = {"links": "[[links]]"}
-EXAMPLES = {"vary": 'say what varies, such as vary."links[0].mass" = {values = [1, 2]}'}
 
 
 def _instead(name: str, kind: type) -> str:
@@ -342,7 +340,7 @@ def _instead(name: str, kind: type) -> str:
     if name.lower() in INSTEAD:
         return INSTEAD[name.lower()].format(speed="spin" if "spin" in known else "angular_speed")
     if near := get_close_matches(name, known, n=1):
-        return f"did you mean {TABLES.get(near[0], near[0])}?"
+        return f"did you mean {'[[links]]' if near[0] == 'links' else near[0]}?"
     if name in BESIDE:
         return "belongs in [scene]" if "scene" in known else "belongs at the top of the file, above the first table"
     if name in _known_keys(Link):
@@ -373,7 +371,8 @@ def _reason(sentence: str, key: str, raw: Any, path: str, annotation: Any) -> st
             return f"is a list of tables: write [[{key}]], with two brackets, above each of them"
         return f"must be tables{got}: write [[{key}]] above each of them, and below it mass = 1.0 and length = 0.5"
     if sentence.endswith(" of length >= 1"):
-        return f"is empty: {EXAMPLES.get(key, 'give at least one')}"
+        more = 'say what varies, such as vary."links[0].mass" = {values = [1, 2]}' if key == "vary" else "give at least one"
+        return f"is empty: {more}"
     if isinstance(value, list) and value and structs and not lists:
         return f"is one table: write [{key}], with one pair of brackets"
     steps = re.findall(r"[a-z_]+", key)
