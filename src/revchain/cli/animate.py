@@ -25,13 +25,7 @@ from .report import Report
 def animate(
     scene: SceneFile,
     out: Annotated[
-        Path,
-        typer.Option(
-            "--out",
-            "-o",
-            metavar="FILE",
-            help="Film (.gif, .mp4), page (.html) or 3D model (.glb).",
-        ),
+        Path, typer.Option("--out", "-o", metavar="FILE", help="Film (.gif, .mp4), page (.html) or 3D model (.glb).")
     ],
     question: Annotated[
         str | None,
@@ -42,8 +36,7 @@ def animate(
     figures: Annotated[
         str | None,
         typer.Option(
-            metavar='"1; 3"',
-            help="Modes by number; shapes and branches by index, from 0. The first six if left out.",
+            metavar='"1; 3"', help="Modes by number; shapes and branches by index, from 0. The first six if left out."
         ),
     ] = None,
     time_scale: Annotated[

@@ -374,11 +374,12 @@ class _Model:
         is_ball = abs(axial - self.least) < _NEAR * self.least  # what to_mjcf and to_urdf add about all axes
         mass = mass if mass > self.least else 0.0
         radius = radius_of_gyration(across, mass, self.least if is_ball else 0.0)
-        counts = self.turn is not None and way != "ball" and mass and not is_ball and axial > max(self.least, _NEAR * across)
-        return _Link(model.body(body).name, mass, length, centroid, radius, axial if counts else 0.0, way)
+        if self.turn is None or way == "ball" or not mass or is_ball or axial <= max(self.least, _NEAR * across):
+            axial = 0.0  # of no effect
+        return _Link(model.body(body).name, mass, length, centroid, radius, axial, way)
 
     def _way(self, joints: list[int], axis: Floats, name: str) -> tuple[str, Floats | None]:
-        """How a link with this axis in space turns about its pin, and the direction of its hinge if it has one alone."""
+        """How a link with this axis in space turns about its pin, and the direction of its hinge if it has only one."""
         hinges = [j for j in joints if self.model.jnt_type[j] == self.hinge]
         if len(hinges) < len(joints) or len(hinges) > 2:
             return "ball", None

@@ -371,8 +371,8 @@ def _reason(sentence: str, key: str, raw: Any, path: str, annotation: Any) -> st
             return f"is a list of tables: write [[{key}]], with two brackets, above each of them"
         return f"must be tables{got}: write [[{key}]] above each of them, and below it mass = 1.0 and length = 0.5"
     if sentence.endswith(" of length >= 1"):
-        more = 'say what varies, such as vary."links[0].mass" = {values = [1, 2]}' if key == "vary" else "give at least one"
-        return f"is empty: {more}"
+        example = 'say what varies, such as vary."links[0].mass" = {values = [1, 2]}'
+        return f"is empty: {example if key == 'vary' else 'give at least one'}"
     if isinstance(value, list) and value and structs and not lists:
         return f"is one table: write [{key}], with one pair of brackets"
     steps = re.findall(r"[a-z_]+", key)

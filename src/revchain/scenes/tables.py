@@ -182,7 +182,8 @@ class Spread(Table, frozen=True, rename={"first": "from", "last": "to"}):
 
 
 Listed = list[AnySign]
-OneOrMore = float | str | Listed | Spread  # without a pattern: msgspec 0.22 crashes for text with a pattern beside a list
+# Its text has no pattern: msgspec 0.22 crashes for text with a pattern beside a list.
+OneOrMore = float | str | Listed | Spread
 
 
 class AskModes(Table, frozen=True):
@@ -283,19 +284,14 @@ QUESTIONS: dict[str, type[Table]] = {
 TABLES: dict[str, type[Table]] = {**QUESTIONS, "explain": AskExplain}
 
 
-_SIGNS = {AnySign: "any", Listed: "any", OneOrMore: "any", Positive: "positive", NotNegative: "not negative"} | {
-    Listed | UnsetType: "any",
-    OneOrMore | UnsetType: "positive",
-    Pair | UnsetType: "not negative",
-    MaybeAnySign: "any",
-    MaybePositive: "positive",
-    MaybeNotNegative: "not negative",
-}
+_SIGNS: dict[Any, str] = {AnySign: "any", Listed: "any", OneOrMore: "any", Positive: "positive"}
+_SIGNS |= {NotNegative: "not negative", Pair: "not negative"}
+_SIGNS |= {kind | UnsetType: sign for kind, sign in _SIGNS.items()} | {OneOrMore | UnsetType: "positive"}  # of a speed
 
 
 @cache
 def number_fields(kind: type[Struct]) -> list[tuple[str, str, bool]]:
-    """Name of each key with a number, text with a unit, or several of them; its sign in words; whether it is required."""
+    """Name of each key that is a number, with or without a unit, or several; its sign; and whether it is required."""
     types = [(field, get_args(field.type)[0]) for field in fields_of(kind)]
     return [(field.name, _SIGNS[of], field.required) for field, of in types if of in _SIGNS]
 
