@@ -8,8 +8,8 @@ from typing import Any
 
 from typer.main import get_command
 
+from revchain.cli import MEANING
 from revchain.cli.app import app
-from revchain.cli.exit_codes import MEANING
 from revchain.cli.frame import USE, codes_of
 
 INTRODUCTION = """# Command line

@@ -85,7 +85,7 @@ from .systems.rig import Rig as Rig
 from .systems.rig import Support as Support
 
 if _TYPE_CHECKING:
-    from .cli.headers import cmake_prefix as cmake_prefix
+    from .cli import cmake_prefix as cmake_prefix
     from .closed_forms import conical_pendulum as conical_pendulum
     from .closed_forms import elliptic as elliptic
     from .closed_forms import hoop as hoop
@@ -102,10 +102,10 @@ if _TYPE_CHECKING:
     from .closed_forms.statics import TransverseModes as TransverseModes
     from .closed_forms.statics import funicular_polygon as funicular_polygon
     from .closed_forms.statics import transverse_modes as transverse_modes
-    from .exchange.mjcf import to_mjcf as to_mjcf
+    from .exchange.write import to_mjcf as to_mjcf
     from .exchange.read import from_mjcf as from_mjcf
     from .exchange.read import from_urdf as from_urdf
-    from .exchange.urdf import to_urdf as to_urdf
+    from .exchange.write import to_urdf as to_urdf
     from .closed_forms.bell import Strike as Strike
     from .results.shapes import Place as Place
     from .results.branches import StabilityWindow as StabilityWindow
@@ -133,10 +133,10 @@ _LATER = dict.fromkeys(_CLOSED_FORMS, "closed_forms") | {
     "TransverseModes": "closed_forms.statics",
     "funicular_polygon": "closed_forms.statics",
     "transverse_modes": "closed_forms.statics",
-    "cmake_prefix": "cli.headers",
+    "cmake_prefix": "cli",
     "load": "results.storage",
-    "to_mjcf": "exchange.mjcf",
-    "to_urdf": "exchange.urdf",
+    "to_mjcf": "exchange.write",
+    "to_urdf": "exchange.write",
     "from_mjcf": "exchange.read",
     "from_urdf": "exchange.read",
 }

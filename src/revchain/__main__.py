@@ -5,14 +5,12 @@ from __future__ import annotations
 
 import sys
 
-from .cli.exit_codes import ExitCode
+from .cli import ExitCode, cmake_prefix
 
 NEEDED = ("typer", "rich", "msgspec")
 
 
 def _print_cmake_prefix() -> int:
-    from .cli.headers import cmake_prefix
-
     try:
         print(cmake_prefix())
     except FileNotFoundError as error:

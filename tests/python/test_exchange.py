@@ -410,8 +410,6 @@ def test_models_of_others():
     assert (plane.mass.tolist(), plane.length.tolist(), plane.centroid.tolist()) == ([3.0, 2.0], [0.8, 0.5], [0.3, 0.2])
     assert plane.radius_of_gyration == pytest.approx(np.sqrt([0.16 / 3, 0.4 / 2]), rel=1e-15)
     assert plane.names == ("lower", "upper")
-    with pytest.raises(ValueError, match="free end of body 'lower' is not marked; put a site there"):
-        rc.from_mjcf(PLANE.replace('<site name="tip" pos="0 0 -0.8"/>', ""))
     ended = BALLS.replace(
         "</body></body>", '<geom type="cylinder" fromto="-0.1 0 0.05  -0.1 0.4 0.05" size="0.01"/></body></body>'
     )
@@ -493,43 +491,33 @@ def test_what_is_no_chain(old, new, message):
         rc.from_mjcf(PLANE.replace(old, new))
 
 
-def test_what_is_no_carriage():
-    text = rc.to_mjcf(RIGS["spring"])
-    for old, new, message in (
-        ('stiffness="300"', 'stiffness="300" damping="2"', "joint 'carriage_x' has damping 2; set it to 0"),
-        (
-            'stiffness="300"',
-            'stiffness="300" springref="0.1"',
-            r"joint 'carriage_x' has a spring that is not at rest \(springref\)",
-        ),
-        (
-            'axis="0 1 0" stiffness="300"',
-            'axis="0 1 0" stiffness="200"',
-            "body 'carriage' slides, but not on two equal springs",
-        ),
-        (
-            'axis="0 1 0" stiffness="300"',
-            'axis="0 1 1" stiffness="300"',
-            "body 'carriage' slides, but not on two equal springs",
-        ),
-    ):
-        assert old in text
-        with pytest.raises(ValueError, match=message):
-            rc.from_mjcf(text.replace(old, new))
+SPRING = rc.to_mjcf(RIGS["spring"])
+BALL = PLANE.replace('name="b" type="hinge" axis="0 1 0"', 'name="b" type="ball"')
 
 
-def test_links_in_space():
-    ball = PLANE.replace('name="b" type="hinge" axis="0 1 0"', 'name="b" type="ball"')
-    with pytest.raises(ValueError, match="body 'lower' is not alike all round its axis"):
-        rc.from_mjcf(ball)
-    with pytest.raises(ValueError, match="some links have one hinge and some have more"):
-        rc.from_mjcf(ball.replace("0.1 0.16 0.1", "0.16 0.16 0.1"))
-    with pytest.raises(ValueError, match="the joints of body 'upper' are at different places"):
-        rc.from_mjcf(PLANE.replace('<joint name="a"', '<joint pos="0 0 0.1" axis="1 0 0"/><joint name="a"'))
+@pytest.mark.parametrize(
+    ("text", "old", "new", "message"),
+    [
+        (SPRING, 'stiffness="300"', 'stiffness="300" damping="2"', "joint 'carriage_x' has damping 2; set it to 0"),
+        (SPRING, 'stiffness="300"', 'stiffness="300" springref="0.1"', r"'carriage_x' has a spring that is not at rest \(springref\)"),
+        (SPRING, 'axis="0 1 0" stiffness="300"', 'axis="0 1 0" stiffness="200"', "'carriage' slides, but not on two equal springs"),
+        (SPRING, 'axis="0 1 0" stiffness="300"', 'axis="0 1 1" stiffness="300"', "'carriage' slides, but not on two equal springs"),
+        (BALL, "", "", "body 'lower' is not alike all round its axis"),
+        (BALL, "0.1 0.16 0.1", "0.16 0.16 0.1", "some links have one hinge and some have more"),
+        (PLANE, '<joint name="a"', '<joint pos="0 0 0.1" axis="1 0 0"/><joint name="a"', "the joints of body 'upper' are at different places"),
+        (PLANE, '<site name="tip" pos="0 0 -0.8"/>', "", "free end of body 'lower' is not marked; put a site there"),
+    ],
+)  # fmt: skip
+def test_what_is_no_carriage_or_link(text, old, new, message):
+    assert old in text
+    with pytest.raises(ValueError, match=message):
+        rc.from_mjcf(text.replace(old, new) if old else text)
+
+
+def test_a_support_without_links():
+    text = rc.to_mjcf(rc.Chain(mass=1.0, length=1.0)).partition('<body name="link')[0] + "</body></worldbody></mujoco>"
     with pytest.raises(ValueError, match="no link hangs from the support"):
-        rc.from_mjcf(
-            rc.to_mjcf(rc.Chain(mass=1.0, length=1.0)).partition('<body name="link')[0] + "</body></worldbody></mujoco>"
-        )
+        rc.from_mjcf(text)
 
 
 NUMBER = re.compile(r'(?<=[" ])-?\d[\d.e+-]*(?=[" ])')
@@ -569,23 +557,21 @@ def test_changed_models(tmp_path, monkeypatch):
     assert min(outcomes.values()) > 30
 
 
-def test_what_is_no_model(tmp_path):
-    with pytest.raises(
-        ValueError, match=r"from_mjcf: source must begin with <mujoco>, got <robot>, a URDF file: use from_urdf"
-    ):
-        rc.from_mjcf(rc.to_urdf(RODS))
-    with pytest.raises(ValueError, match=r"from_urdf: source must begin with <robot>, got <a>, neither MJCF nor URDF"):
-        rc.from_urdf("<a/>")
-    with pytest.raises(ValueError, match=r"from_mjcf: no element found|not well-formed"):
-        rc.from_mjcf("<mujoco>")
-    with pytest.raises(ValueError, match=r"from_mjcf: .*unrecognized"):
-        rc.from_mjcf("<mujoco><chain/></mujoco>")
-    with pytest.raises(ValueError, match=r"from_mjcf: the model has no joints"):
-        rc.from_mjcf("<mujoco/>")
-    with pytest.raises(OSError, match=r"No such file or directory.*nothing\.xml"):
-        rc.from_mjcf(tmp_path / "nothing.xml")
-    with pytest.raises(TypeError, match="from_urdf: source must be a path"):
-        rc.from_urdf(3)
+@pytest.mark.parametrize(
+    ("read", "source", "kind", "message"),
+    [
+        (rc.from_mjcf, rc.to_urdf(RODS), ValueError, "source must begin with <mujoco>, got <robot>, a URDF file: use from_urdf"),
+        (rc.from_urdf, "<a/>", ValueError, "source must begin with <robot>, got <a>, neither MJCF nor URDF"),
+        (rc.from_mjcf, "<mujoco>", ValueError, "no element found|not well-formed"),
+        (rc.from_mjcf, "<mujoco><chain/></mujoco>", ValueError, ".*unrecognized"),
+        (rc.from_mjcf, "<mujoco/>", ValueError, "the model has no joints"),
+        (rc.from_mjcf, "missing/nothing.xml", OSError, "No such file or directory: .*nothing.xml"),
+        (rc.from_urdf, 3, TypeError, "source must be a path"),
+    ],
+)  # fmt: skip
+def test_what_is_no_model(read, source, kind, message):
+    with pytest.raises(kind, match=message if kind is OSError else f"{read.__name__}: ({message})"):
+        read(source)
 
 
 def test_mujoco_is_an_extra(python, without):

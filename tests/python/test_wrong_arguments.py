@@ -112,10 +112,8 @@ ONE_OF = {
     "two_links.pin_of_silent_clapper": {},
     "from_mjcf": {"source": rc.to_mjcf(CHAIN)},
     "from_urdf": {"source": rc.to_urdf(CHAIN)},
-    "rope.SkippingRope": {"span": 1.0, "length": 1.5},
     "Scene.branches": {"max_angular_speed": 5.0},
     "Study.from_dict": {"data": STUDY},
-    "study.Study.from_dict": {"data": STUDY},
 }
 WRITTEN = {  # by method: a film of a few frames
     "animate": {"path": "film.html", "duration": 0.2},
@@ -160,6 +158,8 @@ def callables():
             if not getattr(value, "__module__", "").startswith("revchain") or not callable(value):
                 continue
             kind = isinstance(value, type)
+            if module is not rc and getattr(rc, name, None) is value:
+                continue  # found already
             label = name if module is rc else f"{module.__name__.rpartition('.')[2]}.{name}"
             if not kind or "__init__" in vars(value) and not hasattr(value, "__dataclass_fields__"):
                 if not kind or not issubclass(value, BaseException):
@@ -224,7 +224,7 @@ def test_one_argument_is_wrong(name, tmp_path, monkeypatch):
     found = {}
     for parameter in named:
         for label, wrong in WRONG.items():
-            heavy = (name.rpartition("buffer.")[2], parameter) in WORK and label in ("4e18", "1e30", "1e300")
+            heavy = (name, parameter) in WORK and label in ("4e18", "1e30", "1e300")
             if heavy or (label == "1e5000" and parameter.endswith("_unit")):
                 continue
             alone = {other: value for other, value in known.items() if other not in ONE_OF.get(name, {})}
@@ -240,7 +240,7 @@ def test_the_calls_without_a_wrong_argument_are_right(tmp_path, monkeypatch):
     """Else the arguments beside the wrong one would hide it."""
     pytest.importorskip("pyarrow")  # the calls save tables
     monkeypatch.chdir(tmp_path)
-    files = ("load", "load_scene", "load_study", "study.load_study", "scene.load_scene")
+    files = ("load", "load_scene", "load_study")
     for name, function in CALLABLES.items():
         if name not in files and not name.endswith((".index", "pin_of_silent_clapper")):
             function(**baseline(name, function)[0])

@@ -12,9 +12,9 @@ import typer
 
 from ..motion.write import METHODS, require_for
 from ..results.files import written_aside
-from ..scenes.ask import QUESTIONS
-from .ask import Gravity, Quiet, SceneFile, answer_of, read_scene, refuse_without_answer
-from .exit_codes import ExitCode
+from ..scenes.tables import QUESTIONS
+from .ask import Gravity, Quiet, SceneFile, answer_of, read_scene
+from . import ExitCode
 from .frame import Stop, app, epilog, guarded
 from .progress import counted
 from .report import Report
@@ -25,13 +25,7 @@ from .report import Report
 def animate(
     scene: SceneFile,
     out: Annotated[
-        Path,
-        typer.Option(
-            "--out",
-            "-o",
-            metavar="FILE",
-            help="Film (.gif, .mp4), page (.html) or 3D model (.glb).",
-        ),
+        Path, typer.Option("--out", "-o", metavar="FILE", help="Film (.gif, .mp4), page (.html) or 3D model (.glb).")
     ],
     question: Annotated[
         str | None,
@@ -42,8 +36,7 @@ def animate(
     figures: Annotated[
         str | None,
         typer.Option(
-            metavar='"1; 3"',
-            help="Modes by number; shapes and branches by index, from 0. The first six if left out.",
+            metavar='"1; 3"', help="Modes by number; shapes and branches by index, from 0. The first six if left out."
         ),
     ] = None,
     time_scale: Annotated[
@@ -72,18 +65,17 @@ def animate(
         raise Stop(f"--frames-per-second: a {ending} file has no frames; leave it out", ExitCode.WRONG_USAGE)
     which = None if figures is None else _numbers(figures)
     read = read_scene(scene, gravity, "deg")
-    asked = question or next(iter(each for each in read.asks if each in QUESTIONS), "modes")
-    if asked not in QUESTIONS:
-        raise Stop(f"--ask: must be one of {', '.join(QUESTIONS)}, got {asked}", ExitCode.WRONG_USAGE)
-    refuse_without_answer(scene, read, asked)
+    shown = question or next(iter(each for each in read.asks if each in QUESTIONS), "modes")
+    if shown not in QUESTIONS:
+        raise Stop(f"--ask: must be one of {', '.join(QUESTIONS)}, got {shown}", ExitCode.WRONG_USAGE)
     with written_aside(out) as [aside], ExitStack() as stack:
-        found = answer_of(scene, read, asked, {}, quiet)
+        found = answer_of(scene, read, shown, {}, quiet)
         try:
             getattr(found, METHODS[ending])(aside, figures=which, progress=counted(stack, "frames", quiet), **given)
-        except OSError as error:  # says the place that was asked for
+        except OSError as error:  # names the file of the user, not the temporary one
             raise OSError(error.errno, error.strerror or str(error), str(out)) from None
         except ValueError as error:
-            raise Stop(f"{scene}: {asked}: {str(error).partition(': ')[2]}", ExitCode.WRONG_USAGE) from None
+            raise Stop(f"{scene}: {shown}: {str(error).partition(': ')[2]}", ExitCode.WRONG_USAGE) from None
     if not quiet:
         print(f"wrote {out}")
     Report(read, scene.stem, found, "deg").check(scene)

@@ -6,6 +6,7 @@ from __future__ import annotations
 import inspect
 import re
 import sys
+from contextlib import suppress
 from pathlib import Path
 from typing import Annotated, Any, Literal, get_args, get_origin
 
@@ -14,15 +15,14 @@ from msgspec import Meta, structs
 from rich.console import Console
 
 from ..results.files import written_aside
-from ..scenes.ask import QUESTIONS, AskExplain, Pair, Spread
-from ..scenes.chain import Numbers
+from ..scenes.tables import QUESTIONS, AskExplain, Pair, Spread, Table, fields_of
+from ..scenes.system import Numbers, System
 from ..scenes.error import SceneError
 from ..scenes.parse import is_json, text_of
-from ..scenes.places import places_in
-from ..scenes.scene import EXCLUSIVE, Scene, System, load_scene, read
-from ..scenes.tables import Table, fields_of
+from ..scenes.positions import positions_in
+from ..scenes.scene import EXCLUSIVE, Scene, load_scene, read
 from ..systems.extras import require
-from .exit_codes import ExitCode
+from . import ExitCode
 from .frame import STDOUT, Stop, app, epilog, guarded, outputs_of
 from .progress import watched
 from .report import Report
@@ -82,7 +82,7 @@ def run(
 
 
 def _command(question: str, table: type[Table], summary: str) -> None:
-    """Make the command of a question."""
+    """Add the command of a question, with an option for each key of its table."""
 
     def command(scene: Path, **given: Any) -> None:
         common = {name: given.pop(name) for name in COMMON if name in given}
@@ -112,7 +112,7 @@ def _command(question: str, table: type[Table], summary: str) -> None:
 
 
 def _option(field: structs.FieldInfo, of_modes: bool) -> Any:
-    """The option for a key of a table."""
+    """The option of a command that stands for a key of a table."""
     help_text = next(part.description for part in get_args(field.type) if isinstance(part, Meta)) or ""
     if of_modes and field.name in EXCLUSIVE:
         help_text += " The count, first and windows of the scene do not apply."
@@ -159,12 +159,10 @@ def _meant(field: structs.FieldInfo, given: Any) -> Any:
 
 
 def _number(text: str) -> Any:
-    """A number, or the text."""
+    """The text as a number if it is one, else without blanks around it."""
     for kind in (int, float):
-        try:
+        with suppress(ValueError):
             return kind(text)
-        except ValueError:
-            pass
     return text.strip()
 
 
@@ -191,44 +189,39 @@ def _answer(
     quiet: bool,
 ) -> Report:
     """Answer one question and write the files. The outputs are opened first."""
-    refuse_without_answer(path, scene, question)
-    with written_aside(*[place for place, _ in outputs]) as asides:
+    with written_aside(*[file for file, _ in outputs]) as asides:
         found = answer_of(path, scene, question, changed, quiet)
         report = Report(scene, path.stem, found, units)
         report.write(outputs, asides)
     return report
 
 
-def refuse_without_answer(path: Path, scene: Scene, question: str) -> None:
-    """Stop where a question has no answer for what hangs."""
+def answer_of(path: Path, scene: Scene, question: str, changed: dict[str, Any], quiet: bool) -> Any:
+    """The result, with a bar while modes are found. Stop where the system has no answer."""
     if sentence := without_answer(question, scene.system(), path):
         raise Stop(f"{path}: {sentence}", ExitCode.WRONG_USAGE)
-
-
-def answer_of(path: Path, scene: Scene, question: str, changed: dict[str, Any], quiet: bool) -> Any:
-    """The result, with a bar while modes are found."""
     try:
         if question == "modes":
             return watched(lambda progress: scene._answer(question, changed, progress), Console(stderr=True), quiet)
         return scene._answer(question, changed)
     except SceneError as error:
-        said = [f"{path}: {_said(each.key, each.reason, question, changed, path)}" for each in error.problems]
-        raise Stop("\nrevchain: ".join(said), ExitCode.WRONG_USAGE) from None
+        lines = [f"{path}: {_line(each.key, each.reason, question, changed, path)}" for each in error.problems]
+        raise Stop("\nrevchain: ".join(lines), ExitCode.WRONG_USAGE) from None
 
 
 def _show(report: Report, outputs: list[tuple[Path, str]], heading: bool = True) -> None:
     """Print the tables and the names of the written files."""
     report.print(Console(), heading)
-    print(f"wrote {', '.join([str(place) for place, _ in outputs])}\n" if outputs else "", end="")
+    print(f"wrote {', '.join([str(file) for file, _ in outputs])}\n" if outputs else "", end="")
 
 
-def _said(key: str, reason: str, question: str, changed: dict[str, Any], path: Path) -> str:
+def _line(key: str, reason: str, question: str, changed: dict[str, Any], path: Path) -> str:
     """The sentence for a problem of an option or of the scene."""
     option = re.split(r"[.\[]", name := key.removeprefix(f"ask.{question}."))[0]
     if option in changed:
         return f"--{name.replace('_', '-')}: {reason}"
     if key.startswith("links["):
-        line, column = places_in(text_of(path), is_json(str(path)))(key)
+        line, column = positions_in(text_of(path), is_json(str(path)))(key)
         key = f"line {line}, column {column}: {key}"
     return f"{key}: {reason}" if key else reason
 

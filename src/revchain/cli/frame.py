@@ -15,7 +15,7 @@ import typer
 from ..plots.style import plain
 from ..scenes.error import SceneError
 from ..systems.extras import require
-from .exit_codes import MEANING, ExitCode
+from . import MEANING, ExitCode
 
 Arguments = ParamSpec("Arguments")
 
@@ -162,16 +162,16 @@ def checked_picture(plot: Path) -> None:
 
 
 def outputs_of(scene: Path, plot: Path | None, json: str | None, csv: str | None) -> list[tuple[Path, str]]:
-    """The files to write and the kind of each."""
+    """The files to write, each with the kind of its content."""
     if json == STDOUT and csv == STDOUT:
         raise Stop("--json - and --csv - cannot share stdout", ExitCode.WRONG_USAGE)
     outputs = [(Path(name), kind) for name, kind in ((json, ".json"), (csv, ".csv")) if name not in (None, STDOUT)]
     if plot is not None:
         checked_picture(plot)
         outputs.append((plot, plot.suffix.lower()))
-    places = [path.resolve() for path, _ in outputs]
-    if len(set(places)) < len(places):
+    files = [path.resolve() for path, _ in outputs]
+    if len(set(files)) < len(files):
         raise Stop("two outputs have the same name", ExitCode.WRONG_USAGE)
-    if scene.resolve() in places:
+    if scene.resolve() in files:
         raise Stop(f"{scene}: the scene itself would be overwritten", ExitCode.WRONG_USAGE)
     return outputs

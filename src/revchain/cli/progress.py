@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor, wait
 from contextlib import ExitStack
-from threading import Event, Thread
 from typing import TypeVar
 
 from rich.console import Console
@@ -38,43 +38,27 @@ def counted(stack: ExitStack, what: str, quiet: bool) -> Callable[[int, int], No
     bar = bar_of(what, Console(stderr=True), quiet, MofNCompleteColumn(), TimeRemainingColumn())
     task = bar.add_task(what, total=None)
     began = time.monotonic()
-    started: list[bool] = []
 
-    def told(done: int, total: int) -> None:
-        if not started and time.monotonic() - began > PATIENCE:
-            started.append(True)
+    def show(done: int, total: int) -> None:
+        if not (bar.disable or bar.live.is_started) and time.monotonic() - began > PATIENCE:
             stack.enter_context(bar)
         bar.update(task, completed=done, total=total)
 
-    return told
+    return show
 
 
 def watched(work: Callable[[_core.Progress], Result], console: Console, quiet: bool = False) -> Result:
-    """Run `work` and return its result; a KeyboardInterrupt cancels it and is raised again."""
+    """Run `work` in a thread and return its result; a KeyboardInterrupt cancels it and is raised again."""
     progress = _core.Progress()
-    results: list[Result] = []
-    errors: list[BaseException] = []
-    done = Event()  # Thread.join forgets a running thread when Ctrl-C interrupts it (Python 3.11)
-
-    def run() -> None:
+    with ThreadPoolExecutor(1) as pool:
+        future = pool.submit(work, progress)
         try:
-            results.append(work(progress))
-        except BaseException as error:
-            errors.append(error)
-        finally:
-            done.set()
-
-    Thread(target=run, daemon=True).start()
-    try:
-        if not done.wait(PATIENCE):
-            with bar_of("solving", console, quiet) as bar:
-                task = bar.add_task("solving", total=1.0)
-                while not done.wait(TICK):
-                    bar.update(task, completed=progress.fraction)
-    except KeyboardInterrupt:
-        progress.cancel()
-        done.wait()
-        raise
-    if errors:
-        raise errors[0]
-    return results[0]
+            if wait([future], PATIENCE).not_done:
+                with bar_of("solving", console, quiet) as bar:
+                    task = bar.add_task("solving", total=1.0)
+                    while wait([future], TICK).not_done:
+                        bar.update(task, completed=progress.fraction)
+        except KeyboardInterrupt:
+            progress.cancel()
+            raise
+    return future.result()

@@ -22,9 +22,9 @@ from ..results.explanation import Explanation
 from ..results.modes import Modes
 from ..results.motions import Response, Swing
 from ..results.sheet import Column, Sheet, as_csv, as_dict, cells
-from ..scenes.chain import in_file
+from ..scenes.system import in_file
 from ..scenes.scene import Scene
-from .exit_codes import ExitCode
+from . import ExitCode
 from .frame import PICTURES, Stop, save_picture
 
 NARROWEST = 80  # smallest width of a terminal in columns; numbers are never cut
@@ -45,16 +45,19 @@ class Report:
 
     @cached_property
     def tables(self) -> list[tuple[Text | None, Table | None]]:
-        """The printed tables: heading and grid of each."""
-        more = [getattr(self.found, name, None) for name in ("certificate", "other")]
-        sheets = [self.sheet, *[each._sheet() for each in more if each is not None and (each is more[0] or len(each))]]
+        """The printed tables: the heading and the grid of each, None where it has none."""
+        sheets: list[Sheet] = [self.sheet]
+        for name in ("certificate", "other"):
+            part = getattr(self.found, name, None)
+            if part is not None and (name == "certificate" or len(part)):
+                sheets.append(part._sheet())
         if isinstance(self.found, Response) and self.found.angular_speed.size == 1:
             sheets.append(_pins(self.found))
-        styles = ["" if each.good else "bold yellow" for each in sheets]
-        texts = [Text(each.heading, style=style) for each, style in zip(sheets, styles, strict=True)]
-        headings = [text if text.plain else None for text in texts]
-        grids = [_grid(each, self.units) for each in sheets]
-        return list(zip(headings, grids, strict=True))
+        tables: list[tuple[Text | None, Table | None]] = []
+        for sheet in sheets:
+            heading = Text(sheet.heading, style="" if sheet.good else "bold yellow") if sheet.heading else None
+            tables.append((heading, _grid(sheet, self.units)))
+        return tables
 
     def check(self, path: Path) -> None:
         """Raise Stop with exit code 1 unless everything was found and proved."""
@@ -76,16 +79,16 @@ class Report:
         raise Stop(f"{path}: {what}", ExitCode.TOLERANCE_NOT_MET)
 
     def write(self, outputs: list[tuple[Path, str]], asides: list[Path]) -> None:
-        """Write the outputs, each a place and its kind, to the temporary files beside them."""
-        for aside, (place, kind) in zip(asides, outputs, strict=True):
+        """Write the outputs, each a file and its kind, to the temporary files beside them."""
+        for aside, (file, kind) in zip(asides, outputs, strict=True):
             try:
                 if kind in PICTURES:
                     axes = self.found.plot(**_drawn(self.found))
                     save_picture(axes, self.title, aside)
                 else:
                     aside.write_text(self.text(kind), encoding="utf-8")
-            except OSError as error:  # says the place that was asked for, or none
-                raise OSError(error.errno, error.strerror or str(error), str(place)) from None
+            except OSError as error:  # may name the temporary file, or none
+                raise OSError(error.errno, error.strerror or str(error), str(file)) from None
 
     def text(self, kind: str) -> str:
         """The report as ``.txt``, or all numbers as ``.json`` or ``.csv``."""

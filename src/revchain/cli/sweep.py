@@ -20,7 +20,7 @@ from ..results.files import written_aside
 from ..studies.study import Study, load_study
 from ..studies.sweep import checked_ending, columns
 from ..studies.sweep import sweep as compute
-from .exit_codes import ExitCode
+from . import ExitCode
 from .frame import Stop, app, checked_picture, epilog, guarded, save_picture
 from .progress import counted
 

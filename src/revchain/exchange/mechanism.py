@@ -23,9 +23,9 @@ from ..systems.rig import Rig
 from ..systems.system import System
 
 HELD = 1e12
-"""Moment of inertia of a support whose speed is kept, over that of the chain stretched out."""
+"""Moment of inertia of a support that holds its speed, divided by that of the chain stretched out."""
 MOST = 490
-"""Links: MuJoCo nests bodies no deeper than some 500."""
+"""The largest number of links: MuJoCo nests bodies no deeper than some 500."""
 PARTS = ("world", "turntable", "carriage", "free_end")
 _LEAST_OF_WHEEL = 4e-15  # link and wheel have half of it each, and MuJoCo takes no less than 1e-15
 _DIGITS = Context(prec=40)
@@ -69,7 +69,7 @@ class Mechanism:
 
     @property
     def size(self) -> int:
-        """Number of links."""
+        """The number of links in the chain."""
         return len(self.names)
 
     @property
@@ -79,7 +79,7 @@ class Mechanism:
 
     @property
     def reach(self) -> float:
-        """Greatest distance from the axis."""
+        """The greatest possible distance from the axis, in metres."""
         return float(self.length.sum()) + self.radius
 
     def part(self, k: int, what: str) -> str:
@@ -116,56 +116,47 @@ class State:
     tension: Floats
 
 
-def mechanism(place: str, given: Any, gravity: float | None) -> tuple[Mechanism, list[State]]:
+def mechanism(function: str, given: Any, gravity: float | None) -> tuple[Mechanism, list[State]]:
     """The bodies of a system, or of the system of shapes, and its states: at rest, or the shapes."""
-    shapes: list[Any] | None = (
-        [given] if isinstance(given, SteadyShape) else list(given) if isinstance(given, SteadyShapes) else None
-    )
+    shapes = [given] if isinstance(given, SteadyShape) else list(given) if isinstance(given, SteadyShapes) else None
     system = given if shapes is None else given.system
     if not isinstance(system, Chain | Rig):
-        _refuse(place, given, system)
-    if shapes is not None and gravity is not None:
-        raise ValueError(
-            f"{place}: a shape has its gravity, {given.gravity:g}; leave gravity out, got {shown(gravity)}"
-        )
-    if shapes == []:
-        raise ValueError(
-            f"{place}: the list of shapes is empty; give the system instead: shapes.system, got {shown(system)}"
-        )
-    g = (
-        given.gravity
-        if shapes is not None
-        else one_positive(place, "gravity", STANDARD_GRAVITY if gravity is None else gravity)
-    )
+        if isinstance(system, System):
+            raise ValueError(f"{function}: {_BENT}; got {shown(system)}")
+        wanted = "revchain.Chain, Rig, SteadyShape or SteadyShapes"
+        raise TypeError(f"{function}: system must be a {wanted}, got {shown(given)}")
+    if shapes is None:
+        gravity = one_positive(function, "gravity", STANDARD_GRAVITY if gravity is None else gravity)
+    elif gravity is not None:
+        its = f"a shape has its gravity, {given.gravity:g}"
+        raise ValueError(f"{function}: {its}; leave gravity out, got {shown(gravity)}")
+    elif not shapes:
+        instead = "give the system instead: shapes.system"
+        raise ValueError(f"{function}: the list of shapes is empty; {instead}, got {shown(system)}")
+    else:
+        gravity = given.gravity
     rig = system if isinstance(system, Rig) else Rig(system)
     if rig._floats:
-        raise ValueError(
-            f"{place}: a fluid has no counterpart in the engine; give the rig without displaced, got {rig!r}"
-        )
-    made, momentum, axial = _bodies(place, rig, g)
+        instead = "give the rig without displaced"
+        raise ValueError(f"{function}: a fluid has no counterpart in the engine; {instead}, got {rig!r}")
+    made, momentum, axial = _bodies(function, rig, gravity)
     if shapes is None:
         return made, [_at_rest(rig, made, momentum)]
     names = ["steady shape"] if len(shapes) == 1 else [f"shape {k}" for k in range(1, len(shapes) + 1)]
     return made, [_steady(name, shape, made, momentum, axial) for name, shape in zip(names, shapes, strict=True)]
 
 
-def _refuse(place: str, given: Any, system: Any) -> None:
-    if isinstance(system, System):
-        raise ValueError(f"{place}: {_BENT}; got {shown(system)}")
-    raise TypeError(f"{place}: system must be a revchain.Chain, Rig, SteadyShape or SteadyShapes, got {shown(given)}")
-
-
-def _bodies(place: str, rig: Rig, gravity: float) -> tuple[Mechanism, Floats, Floats]:
-    """The bodies; angular momentum that links keep, and their axial moments of inertia."""
+def _bodies(function: str, rig: Rig, gravity: float) -> tuple[Mechanism, Floats, Floats]:
+    """The bodies, the constant angular momentum of each link along its axis, and the axial moments of inertia."""
     chain = rig.chain
     if chain.mode_count < chain.size:
         raise ValueError(
-            f"{place}: links that meet at a pin without mass stay in line, and no engine can move them one by one; "
+            f"{function}: links that meet at a pin without mass stay in line, and no engine can move them one by one; "
             f"make them one: chain.clamped(k) with the lower of the two, got {chain.describe()}"
         )
     if chain.size > MOST:
         raise ValueError(
-            f"{place}: MuJoCo takes at most {MOST} links, one below another, got {chain.size}; use fewer and longer ones"
+            f"{function}: MuJoCo takes at most {MOST} links, one below another, got {chain.size}; use fewer and longer ones"
         )
     per = 1.0 if chain.by_mass else gravity
     mass, size = (chain.mass if chain.by_mass else chain.weight) / per, chain.size
@@ -175,7 +166,7 @@ def _bodies(place: str, rig: Rig, gravity: float) -> tuple[Mechanism, Floats, Fl
     wheeled = (momentum != 0) | (axial != 0)
     if (wrong := np.flatnonzero(wheeled & ~(moment > _LEAST_OF_WHEEL))).size:
         raise ValueError(
-            f"{place}: flywheels[{wrong[0]}] needs a link with a moment of inertia across its axis, above "
+            f"{function}: flywheels[{wrong[0]}] needs a link with a moment of inertia across its axis, above "
             f"{_LEAST_OF_WHEEL:g} kg m^2; give links[{wrong[0]}] a radius_of_gyration, got {radius[wrong[0]]:g}"
         )
     support = rig.support
@@ -205,7 +196,7 @@ def radius_of_gyration(moment: float, mass: float, added: float = 0.0) -> float:
 
 
 def _names(chain: Chain) -> tuple[str, ...]:
-    """Names of the links: all different, none that of a part of the support. The first link of a name keeps it."""
+    """Names of the links: all different, and none that of a part of the support. Later links of a name get a number."""
     names: list[str] = []
     given = chain.names or [f"link_{k}" for k in range(chain.size)]
     taken = {*PARTS, ""}
@@ -227,10 +218,10 @@ def _at_rest(rig: Rig, made: Mechanism, momentum: Floats) -> State:
 
 
 def _steady(name: str, shape: SteadyShape, made: Mechanism, momentum: Floats, axial: Floats) -> State:
-    speed, along = shape.direction * shape.angular_speed, np.cos(shape.inclination)
-    kept = momentum + axial * speed * along
+    speed = shape.direction * shape.angular_speed
+    momentum = momentum + axial * speed * np.cos(shape.inclination)
     give = float(shape.offset[-1]) - made.radius
-    rates = _rates(made, kept, speed, shape.inclination)
+    rates = _rates(made, momentum, speed, shape.inclination)
     return State(name, speed, shape.joint_angle, give, rates, shape.tension)
 
 

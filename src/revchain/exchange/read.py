@@ -1,22 +1,40 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Chains and rigs from the models of multibody engines; MuJoCo reads the files."""
+"""Chains and rigs from models of MuJoCo (MJCF) and robot descriptions (URDF), whose files MuJoCo reads."""
 
 from __future__ import annotations
 
 import os
+from contextlib import suppress
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple, NoReturn
 from xml.etree import ElementTree as Xml
+
+import numpy as np
 
 from ..results.files import naming
 from ..systems.chain import Chain
 from ..systems.extras import require
-from ..systems.numbers import file_path
-from ..systems.rig import Rig
-from .mjcf import LEAST as LEAST_OF_MJCF
-from .serial import Serial
-from .urdf import LEAST as LEAST_OF_URDF
+from ..systems.numbers import Floats, file_path
+from ..systems.rig import Flywheel, Rig, Support
+from .mechanism import radius_of_gyration
+from .write import LEAST, LEAST_OF_URDF, RATIO
 
+_NEAR = 1e-9  # parts of a length, an axis or a moment by which a model may differ from a straight link
+_FORCES = ("jnt_stiffness", "jnt_stiffnesspoly", "dof_damping", "dof_dampingpoly", "dof_frictionloss", "dof_armature")
+_NUMBERS = {
+    "body": ("pos", "quat", "mass", "inertia", "ipos", "iquat"),
+    "jnt": ("pos", "axis", "stiffness"),
+    "geom": ("pos", "quat", "size"),
+    "site": ("pos",),
+}
+_MOST = 1e75  # of a number, so that the product of four is finite
+_MORE = {
+    "neq": "equality constraints",
+    "ntendon": "tendons",
+    "nu": "actuators",
+    "nflex": "flexes",
+    "nplugin": "plugins",
+}
 _OTHER = {"mujoco": "a model of MuJoCo: use from_mjcf", "robot": "a URDF file: use from_urdf"}
 
 
@@ -59,7 +77,7 @@ def from_mjcf(source: str | os.PathLike[str]) -> Chain | Rig:
     >>> rc.from_mjcf(rc.to_mjcf(chain)) == chain
     True
     """
-    return _system("revchain.from_mjcf", source, "mujoco", LEAST_OF_MJCF)
+    return _system("revchain.from_mjcf", source, "mujoco", LEAST)
 
 
 def from_urdf(source: str | os.PathLike[str]) -> Chain | Rig:
@@ -99,10 +117,10 @@ def from_urdf(source: str | os.PathLike[str]) -> Chain | Rig:
     return _system("revchain.from_urdf", source, "robot", LEAST_OF_URDF)
 
 
-def _system(place: str, source: Any, root: str, least: float) -> Chain | Rig:
-    mujoco = require("mujoco", "exchange", place)
+def _system(function: str, source: Any, root: str, least: float) -> Chain | Rig:
+    mujoco = require("mujoco", "exchange", function)
     is_text = isinstance(source, str) and source.lstrip().startswith("<")
-    name = "" if is_text else file_path(place, "source", source)
+    name = "" if is_text else file_path(function, "source", source)
     with naming(name):
         text = source if is_text else Path(name).read_text(encoding="utf-8")
     try:
@@ -116,8 +134,292 @@ def _system(place: str, source: Any, root: str, least: float) -> Chain | Rig:
             spec.compiler.fusestatic = False
         model = spec.compile()
     except (ValueError, Xml.ParseError) as error:
-        raise ValueError(f"{place}: {error}") from None
+        raise ValueError(f"{function}: {error}") from None
     try:
-        return Serial(mujoco, model, place, least).system()
+        return _Model(mujoco, model, function, least).system()
     except ValueError as error:  # of a chain that it would make
-        raise ValueError(f"{place}: {str(error).partition(': ')[2]}") from None
+        raise ValueError(f"{function}: {str(error).partition(': ')[2]}") from None
+
+
+class _Link(NamedTuple):
+    """A body between two pins; `way` says how it can turn about the upper one."""
+
+    name: str
+    mass: float
+    length: float
+    centroid: float
+    radius_of_gyration: float
+    axial: float
+    way: str
+
+
+class _Model:
+    """A model that MuJoCo has compiled, in its pose at rest, read as links hung one from another.
+
+    Anything else is refused with the reason. Masses and moments of inertia up to `least` count as 0.
+    """
+
+    def __init__(self, mujoco: Any, model: Any, function: str, least: float) -> None:
+        self.mujoco, self.model, self.function, self.least = mujoco, model, function, least
+        kinds = mujoco.mjtJoint
+        self.hinge, self.slide, self.ball = int(kinds.mjJNT_HINGE), int(kinds.mjJNT_SLIDE), int(kinds.mjJNT_BALL)
+        self.turn: int | None = None  # the joint of the turntable
+        self._refuse_wild()
+        self.at = mujoco.MjData(model)
+        mujoco.mj_kinematics(model, self.at)
+        size = float(np.linalg.norm(model.opt.gravity))
+        self.children: list[list[int]] = [[] for _ in range(model.nbody)]
+        self.moves = [bool(count) for count in model.body_jntnum]  # or something that hangs from it does
+        for body in range(model.nbody - 1, 0, -1):
+            above = int(model.body_parentid[body])
+            self.children[above].insert(0, body)
+            self.moves[above] |= self.moves[body]
+        self.up = -model.opt.gravity / size if size else np.array([0.0, 0.0, 1.0])
+
+    def system(self) -> Chain | Rig:
+        """The chain, and the support if it is not a firm point on the axis."""
+        for name, what in _MORE.items():
+            if getattr(self.model, name):
+                self._refuse(f"the model has {what}, which a chain does not have; take them away")
+        if self.model.body_gravcomp.any():
+            self._refuse("gravity does not act on all bodies (gravcomp); set gravcomp to 0")
+        if self.model.opt.density or self.model.opt.viscosity:
+            self._refuse("the model is in a fluid, whose forces are not read; set density and viscosity of option to 0")
+        bodies = self._path()
+        first = self._joints(bodies[0])[0]
+        if self.model.jnt_type[first] == self.hinge and abs(self.at.xaxis[first] @ self.up) > 1 - 1e-12:
+            self.turn = first  # it turns all that hangs about the vertical
+        bodies = bodies if self._joints(bodies[0]) else bodies[1:]
+        given = self._spring(bodies[0]) if bodies else {}
+        bodies = bodies[1:] if given else bodies
+        if not bodies:
+            self._refuse("no link hangs from the support")
+        links = self._links(bodies)
+        if self.turn is not None:
+            arm = self.at.xanchor[self._joints(bodies[0])[0]] - self.at.xanchor[self.turn]
+            given["radius"] = float(np.linalg.norm(arm - (arm @ self.up) * self.up))
+        axial = np.array([link.axial for link in reversed(links)])
+        chain = _chain(links[::-1], self._numeric(RATIO))
+        if not any(given.values()) and not axial.any():
+            return chain
+        return Rig(chain, support=Support(**given), flywheels=Flywheel(axial_moment=axial) if axial.any() else None)
+
+    def _numeric(self, name: str) -> Floats:
+        """The custom numbers of the file with a name; empty where there are none."""
+        model = self.model
+        known = [model.numeric(k).name for k in range(model.nnumeric)]
+        return np.array(model.numeric(name).data if name in known else [])
+
+    def _refuse_wild(self) -> None:
+        """Refuse numbers that are not finite, or whose products would not be."""
+        for kind, fields in _NUMBERS.items():
+            for field in fields:
+                values = getattr(self.model, f"{kind}_{field}")
+                wild = np.argwhere(~(np.abs(values) <= _MOST))
+                if wild.size:
+                    name = self._name("joint" if kind == "jnt" else kind, int(wild[0, 0]))
+                    self._refuse(f"{name}: {field} must be finite and at most {_MOST:g}, got {values[tuple(wild[0])]:g}")
+        if not (np.abs(self.model.opt.gravity) <= _MOST).all():
+            self._refuse(f"gravity must be finite and at most {_MOST:g}, got {self.model.opt.gravity}")
+
+    def _refuse(self, why: str) -> NoReturn:
+        raise ValueError(f"{self.function}: {why}")
+
+    def _name(self, kind: str, number: int) -> str:
+        """The name of a body or joint as messages have it."""
+        name = getattr(self.model, kind)(number).name
+        return f"{kind} {name!r}" if name else f"{kind} number {number}"
+
+    def _joints(self, body: int) -> list[int]:
+        """The joints of a body, without that of the turntable."""
+        first = int(self.model.body_jntadr[body])
+        return [j for j in range(first, first + int(self.model.body_jntnum[body])) if j != self.turn]
+
+    def _path(self) -> list[int]:
+        """The bodies with joints, from the support down; refuses a model that is no serial chain."""
+        bodies: list[int] = []
+        here = 0
+        while True:
+            below = [b for b in self.children[here] if self.moves[b]]
+            if len(below) > 1:
+                one, other = (self._name("body", b) for b in below[:2])
+                self._refuse(
+                    f"{one} and {other} both hang from {self._name('body', here)}; only a serial chain can be read"
+                )
+            fixed = [b for b in self.children[here] if b not in below and self.model.body_subtreemass[b] > self.least]
+            if bodies and fixed:
+                self._refuse(
+                    f"{self._name('body', fixed[0])} is fixed to {self._name('body', here)}; make them one body"
+                )
+            if not below:
+                break
+            here = below[0]
+            if self._joints(here):
+                bodies.append(here)
+            elif bodies:
+                self._refuse(
+                    f"{self._name('body', here)} has no joint; make it one body with {self._name('body', bodies[-1])}"
+                )
+        if not bodies:
+            self._refuse("the model has no joints; a URDF file needs a root link of the name world")
+        return bodies
+
+    def _spring(self, body: int) -> dict[str, float]:
+        """Stiffness and mass of a carriage on two horizontal springs; empty where there is none."""
+        model, joints = self.model, self._joints(body)
+        if not joints or any(model.jnt_type[j] != self.slide for j in joints):
+            return {}
+        axes, stiffness = self.at.xaxis[joints], np.ravel(model.jnt_stiffness[joints])
+        level = len(joints) == 2 and np.abs([axes[0] @ axes[1], *(axes @ self.up)]).max() < _NEAR
+        if not level or stiffness[0] != stiffness[1] or not stiffness[0] > 0:
+            self._refuse(f"{self._name('body', body)} slides, but not on two equal springs at right angles and level")
+        for j in joints:
+            self._refuse_forces(j, but="stiffness")
+            if model.qpos_spring[model.jnt_qposadr[j]] != model.qpos0[model.jnt_qposadr[j]]:
+                self._refuse(
+                    f"{self._name('joint', j)} has a spring that is not at rest (springref); set springref to 0"
+                )
+        mass = float(model.body_mass[body])
+        return {"stiffness": float(stiffness[0]), "mass": mass if mass > self.least else 0.0}
+
+    def _refuse_forces(self, joint: int, but: str = "") -> None:
+        """Refuse springs, friction and limits of a joint."""
+        model, dof = self.model, self.model.jnt_dofadr[joint]
+        for field in _FORCES:
+            name = field.partition("_")[2]
+            values = getattr(model, field, None)  # some are not in all versions
+            here = 0.0 if values is None else np.max(np.abs(values[joint if field.startswith("jnt") else dof]))
+            if here and name != but:
+                self._refuse(f"{self._name('joint', joint)} has {name} {here:g}; set it to 0")
+        if model.jnt_limited[joint]:
+            self._refuse(f"{self._name('joint', joint)} has a range; take it away")
+
+    def _links(self, bodies: list[int]) -> list[_Link]:
+        """The links that the bodies are, from the support down."""
+        links, joints = [], []
+        for body, after in zip(bodies, [*bodies[1:], None], strict=True):
+            joints += self._joints(body)
+            pin = self._pin(body)
+            end = self._free_end(body, pin) if after is None else self._in_parent(after)
+            along = end - pin
+            if np.linalg.norm(along) > _NEAR * np.abs(self.model.body_pos).max(initial=0.0):
+                links.append(self._link(body, joints, pin, along))
+                joints = []
+            elif self.model.body_mass[body] > self.least:
+                self._refuse(f"{self._name('body', body)} has mass but no length: the next joint is at its own")
+        ways = {link.way for link in links}
+        if "one hinge" in ways:
+            if len(ways) > 1:
+                self._refuse("some links have one hinge and some have more; a chain moves in one plane or in space")
+            axes = self.at.xaxis[[j for b in bodies for j in self._joints(b)]]
+            if np.abs(np.cross(axes, axes[0])).max() > _NEAR or np.abs(axes @ self.up).max() > _NEAR:
+                self._refuse("links have one hinge each, but these are not level and parallel")
+        return links
+
+    def _pin(self, body: int) -> Floats:
+        """The position of the joints of a body in its own frame."""
+        joints = self._joints(body)
+        for j in joints:
+            if self.model.jnt_type[j] not in (self.hinge, self.ball):
+                self._refuse(f"{self._name('joint', j)} is neither a hinge nor a ball joint")
+            self._refuse_forces(j)
+            if np.any(self.model.jnt_pos[j] != self.model.jnt_pos[joints[0]]):
+                self._refuse(
+                    f"the joints of {self._name('body', body)} are at different places; a link has one upper pin"
+                )
+        return np.array(self.model.jnt_pos[joints[0]])
+
+    def _in_parent(self, body: int) -> Floats:
+        """The position of the joints of a body in the frame of the body above."""
+        turned = self._matrix(self.model.body_quat[body]) @ self.model.jnt_pos[self._joints(body)[0]]
+        return np.asarray(self.model.body_pos[body] + turned)
+
+    def _matrix(self, quaternion: Floats) -> Floats:
+        flat = np.empty(9)
+        self.mujoco.mju_quat2Mat(flat, quaternion)
+        return flat.reshape(3, 3)
+
+    def _free_end(self, body: int, pin: Floats) -> Floats:
+        """The free end: a body without mass, the only site, or the end of the geoms beyond the centre of gravity."""
+        model, marks = self.model, self.children[body]
+        sites = np.flatnonzero(model.site_bodyid == body)
+        if len(marks) == 1:
+            return np.array(model.body_pos[marks[0]])
+        if len(sites) == 1:
+            return np.array(model.site_pos[sites[0]])
+        out = model.body_ipos[body] - pin
+        ends = [end for g in np.flatnonzero(model.geom_bodyid == body) for end in self._ends(int(g))]
+        if not out.any() or not ends:
+            self._refuse(f"the free end of {self._name('body', body)} is not marked; put a site there")
+        out = out / np.linalg.norm(out)
+        return np.asarray(pin + max((end - pin) @ out for end in ends) * out)
+
+    def _ends(self, geom: int) -> list[Floats]:
+        """The ends of the axis of a capsule or cylinder; the centre of any other geom."""
+        model, kinds = self.model, self.mujoco.mjtGeom
+        is_long = model.geom_type[geom] in (int(kinds.mjGEOM_CAPSULE), int(kinds.mjGEOM_CYLINDER))
+        half = self._matrix(model.geom_quat[geom])[:, 2] * (model.geom_size[geom][1] if is_long else 0.0)
+        return [model.geom_pos[geom] + half, model.geom_pos[geom] - half]
+
+    def _link(self, body: int, joints: list[int], pin: Floats, along: Floats) -> _Link:
+        model, name = self.model, self._name("body", body)
+        length = float(np.linalg.norm(along))
+        axis = along / length
+        centre = model.body_ipos[body] - pin
+        centroid, mass = float(centre @ axis), float(model.body_mass[body])
+        if np.linalg.norm(centre - centroid * axis) > _NEAR * length and mass > self.least:
+            self._refuse(f"the centre of gravity of {name} is not on the line between its pins")
+        way, hinge = self._way(joints, self._matrix(self.at.xquat[body]) @ axis, name)
+        across, axial = self._moments(body, axis, hinge, name)
+        is_ball = abs(axial - self.least) < _NEAR * self.least  # what to_mjcf and to_urdf add about all axes
+        mass = mass if mass > self.least else 0.0
+        radius = radius_of_gyration(across, mass, self.least if is_ball else 0.0)
+        if self.turn is None or way == "ball" or not mass or is_ball or axial <= max(self.least, _NEAR * across):
+            axial = 0.0  # of no effect
+        return _Link(model.body(body).name, mass, length, centroid, radius, axial, way)
+
+    def _way(self, joints: list[int], axis: Floats, name: str) -> tuple[str, Floats | None]:
+        """How a link with this axis in space turns about its pin, and the direction of its hinge if it has only one."""
+        hinges = [j for j in joints if self.model.jnt_type[j] == self.hinge]
+        if len(hinges) < len(joints) or len(hinges) > 2:
+            return "ball", None
+        axes = self.at.xaxis[hinges]
+        if np.abs(axes @ axis).max() > _NEAR or (len(hinges) == 2 and np.linalg.norm(np.cross(*axes)) < _NEAR):
+            self._refuse(f"the hinges of {name} are not across the link, at its upper pin")
+        return ("one hinge", axes[0]) if len(hinges) == 1 else ("two hinges", None)
+
+    def _moments(self, body: int, axis: Floats, hinge: Floats | None, name: str) -> tuple[float, float]:
+        """Moments of inertia about the centre of gravity, across the link and along it."""
+        model = self.model
+        frame = self._matrix(model.body_iquat[body])
+        inertia = frame @ np.diag(model.body_inertia[body]) @ frame.T
+        if hinge is None:
+            across = np.cross(axis, np.eye(3)[np.abs(axis).argmin()])
+            across /= np.linalg.norm(across)
+        else:
+            across = self._matrix(self.at.xquat[body]).T @ hinge
+        base = np.stack([across, np.cross(axis, across), axis])
+        about = base @ inertia @ base.T
+        uneven = np.abs(about - np.diag(about[[0, 0, 2], [0, 0, 2]])).max()
+        if hinge is None and uneven > _NEAR * np.abs(about).max() + self.least:
+            self._refuse(
+                f"{name} is not alike all round its axis: its moments of inertia are {model.body_inertia[body]}"
+            )
+        return float(about[0, 0]), float(about[2, 2])
+
+
+def _chain(links: list[_Link], ratio: Floats) -> Chain:
+    """The chain of links from the free end up; `ratio` are their radii of gyration with more digits, or empty."""
+    names = [link.name for link in links]
+    numbered = not all(names) or names == [f"link_{k}" for k in range(len(names))]
+    columns = {name: [getattr(link, name) for link in links] for name in _COLUMNS}
+    chain = Chain(names=None if numbered else names, **columns)  # type: ignore[arg-type]
+    if ratio.size == 2 * len(links):
+        more = dict(zip(("gyration_ratio", "gyration_ratio_low"), ratio.reshape(2, -1).tolist(), strict=True))
+        with suppress(ValueError):  # numbers of another chain
+            exact = Chain.from_dict(chain.to_dict() | more)
+            return exact if np.array_equal(exact.radius_of_gyration, chain.radius_of_gyration) else chain
+    return chain
+
+
+_COLUMNS = ("mass", "length", "centroid", "radius_of_gyration")

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 
 class Problem(NamedTuple):
-    """One error of a scene: its place and its reason; the line is 0 if there is no file."""
+    """One error of a scene: line, column, key and reason; line and column are 0 if there is no file."""
 
     line: int
     column: int
@@ -43,10 +43,10 @@ class SceneError(ValueError):
         self.key, self.reason = self.problems[0][2:]
         super().__init__("\n".join(_line(source, problem) for problem in self.problems))
 
-    def _placed(self, place: Callable[[str], tuple[int, int]]) -> SceneError:
-        """The error with the line and column of each key from `place`."""
+    def _located(self, position: Callable[[str], tuple[int, int]]) -> SceneError:
+        """The error with the line and column of each key from the function `position`."""
         syntax = {each[:2] for each in self.problems if each.line}
-        found = [each if each.line else Problem(*place(each.key), *each[2:]) for each in self.problems]
+        found = [each if each.line else Problem(*position(each.key), *each[2:]) for each in self.problems]
         right = [each for one, each in zip(self.problems, found, strict=True) if one.line or each[:2] not in syntax]
         return SceneError(self.source, problems=sorted(right))  # without what follows from a mark that is put right
 
@@ -55,5 +55,5 @@ class SceneError(ValueError):
 
 
 def _line(source: str, problem: Problem) -> str:
-    place = f"line {problem.line}, column {problem.column}" if problem.line else ""
-    return ": ".join(part for part in (source, place, problem.key, problem.reason) if part)
+    position = f"line {problem.line}, column {problem.column}" if problem.line else ""
+    return ": ".join(part for part in (source, position, problem.key, problem.reason) if part)

@@ -7,23 +7,19 @@ import json
 import os
 import re
 import tomllib
-from bisect import bisect, insort
+from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from difflib import get_close_matches
-from functools import cache
-from itertools import chain
-from types import UnionType
-from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin
+from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin
 
 import msgspec
 
 from ..systems.numbers import file_path
 from ..systems.units import SI, si_value
-from .ask import QUESTIONS
 from .error import Problem, SceneError
-from .places import joined, places_in
-from .tables import BESIDE, SYSTEMS, Link, fields_of
+from .positions import joined, positions_in
+from .tables import BESIDE, QUESTIONS, SYSTEMS, Link, fields_of
 
 Kind = TypeVar("Kind")
 MOST_DIGITS = 400  # more than those of the largest float
@@ -34,7 +30,7 @@ TOO_DEEP = f"tables and lists lie more than {MOST_LEVELS} levels deep; remove br
 
 
 def text_of(path: str | os.PathLike[str]) -> str:
-    """The text of a file."""
+    """Read the text of a file; line ends become newlines."""
     source = file_path("revchain", "the scene or study", path)
     try:
         with open(source, "rb") as file:
@@ -62,7 +58,8 @@ def opened(path: str | os.PathLike[str]) -> Iterator[tuple[Any, list[Problem]]]:
     source = os.fspath(path)
     try:
         raw, moved = (_json if is_json(source) else _toml)(lines, problems)
-        _check_levels(raw)
+        if _levels(raw) > MOST_LEVELS + 1:
+            raise RecursionError
     except (RecursionError, ValueError) as error:  # ValueError: an integer of thousands of digits
         reason = Problem(0, 0, "", TOO_DEEP if isinstance(error, RecursionError) else f"cannot be read: {error}")
         raise SceneError(source, problems=sorted(problems) or [reason]) from None
@@ -71,28 +68,26 @@ def opened(path: str | os.PathLike[str]) -> Iterator[tuple[Any, list[Problem]]]:
     except SceneError as error:
         if error.source != source:
             raise
-        place = places_in("\n".join(lines), is_json(source))
+        position = positions_in("\n".join(lines), is_json(source))
 
         def in_file(key: str) -> tuple[int, int]:
-            line, column = place(key)
+            line, column = position(key)
             for at, start, more in reversed(moved):
                 column -= more if at == line and column > start + 1 else 0
             return line, column
 
-        raise error._placed(in_file) from None
+        raise error._located(in_file) from None
 
 
-def _check_levels(raw: Any) -> None:
-    """A RecursionError where tables and lists lie too deep inside one another for the functions that read them."""
-    level, levels = [raw], 0
+def _levels(raw: Any) -> int:
+    """Number of levels of tables and lists inside one another, with that of their numbers."""
+    levels, level = 0, [raw]
     while level:
-        levels += 1
-        if levels > MOST_LEVELS + 1:
-            raise RecursionError
-        inside: list[Any] = []
+        levels, inside = levels + 1, list[Any]()
         for each in level:
             inside += each.values() if isinstance(each, dict) else each if isinstance(each, list) else ()
         level = inside
+    return levels
 
 
 def is_json(source: str) -> bool:
@@ -125,7 +120,7 @@ def _toml(lines: list[str], problems: list[Problem]) -> tuple[Any, Moved]:
         try:
             return tomllib.loads("\n".join(lines)), moved
         except tomllib.TOMLDecodeError as error:
-            line, column, reason = _place_of_toml_error(str(error), lines)
+            line, column, reason = _read_toml_error(str(error), lines)
         right, wrong = lines.copy(), lines[line - 1]
         if reason == LINKS_TWICE:
             right = [re.sub(r"^(\s*)\[\[?links\]+", r"\1[[links]]", each) for each in lines]
@@ -155,7 +150,7 @@ _IN_PLAIN_WORDS = {
 LINKS_TWICE = "[links] is there twice: write [[links]], with two brackets, above each link"
 
 
-def _place_of_toml_error(message: str, lines: list[str]) -> tuple[int, int, str]:
+def _read_toml_error(message: str, lines: list[str]) -> tuple[int, int, str]:
     found = re.fullmatch(r"(.*) \(at (?:line (\d+), column (\d+)|end of document)\)", message, re.DOTALL)
     reason = message if found is None else _IN_PLAIN_WORDS.get(found[1], found[1])
     if found is None or not found[2]:
@@ -231,10 +226,10 @@ def _repaired(line: str) -> tuple[str, int, str] | None:
     return None
 
 
-def convert(raw: Any, kind: type[Kind], source: str, problems: list[Problem] | None = None) -> Kind:
-    """`raw` as `kind`, a msgspec Struct.
+def convert(raw: Any, kind: type[Kind], source: str, problems: list[Problem]) -> Kind:
+    """`raw` as `kind`, a msgspec Struct. Errors are noted in `problems`, and the wrong values are left out.
 
-    All errors are raised as one SceneError; with `problems`, they are noted there and the wrong values are left out.
+    What cannot be read at all is raised as a SceneError.
     """
     if isinstance(raw, dict) and "vary" in _known_keys(kind) and (scene := [key for key in SYSTEMS if key in raw]):
         raise SceneError(source, scene[0], f"is of a scene, not of a study: revchain run {source}")
@@ -245,7 +240,7 @@ def convert(raw: Any, kind: type[Kind], source: str, problems: list[Problem] | N
         except msgspec.ValidationError as error:
             converted = _table(raw, kind, "", found)
             found = found or [Problem(0, 0, "", str(error))]
-            if problems is None or converted is msgspec.UNSET:
+            if converted is msgspec.UNSET:
                 raise SceneError(source, problems=found) from None
         msgspec.json.encode(converted)
     except UnicodeEncodeError as error:
@@ -255,8 +250,7 @@ def convert(raw: Any, kind: type[Kind], source: str, problems: list[Problem] | N
         raise
     except (RecursionError, OverflowError, ValueError) as error:
         raise SceneError(source, "", f"cannot be read: {error}") from None
-    if problems is not None:
-        problems += found
+    problems += found
     return converted
 
 
@@ -266,50 +260,37 @@ def _known_keys(kind: type) -> list[str]:
 
 def _table(raw: Any, kind: type, key: str, found: list[Problem]) -> Any:
     """A struct with the correct values of `raw`; UNSET if `raw` is not a table."""
-
-    def refuse(name: str, reason: str) -> None:
-        found.append(Problem(0, 0, joined(key, name) if name else key, reason))
-
     if not isinstance(raw, dict):
-        refuse("", f"must be a table, got {written(raw)}")
+        found.append(Problem(0, 0, key, f"must be a table, got {written(raw)}"))
         return msgspec.UNSET
     names = {field.encode_name: field for field in fields_of(kind)}
-    values: dict[str, Any] = {}
+    values = {field.name: msgspec.UNSET for field in names.values() if field.required}
     for name, value in raw.items():
         if not isinstance(name, str):
-            refuse("", "every key must be text")
-        elif name in names:
-            values[names[name].name] = _value(value, names[name].type, joined(key, name), found)
-        else:
-            refuse(name, f"unknown key; {_instead(name, kind)}")
-    for name, field in names.items():
-        if name not in raw and field.required:
-            values[field.name] = msgspec.UNSET
-            refuse(name, "is missing")
-    given = {names[each.encode_name].name: values[each.name] for each in names.values() if each.name in values}
-    wrong = [name for name, value in given.items() if value is msgspec.UNSET]
-    for name in wrong:
-        if not next(field for field in names.values() if field.name == name).required:
-            del given[name]
-    return kind(**given)
+            found.append(Problem(0, 0, key, "every key must be text"))
+        elif name not in names:
+            found.append(Problem(0, 0, joined(key, name), f"unknown key; {_instead(name, kind)}"))
+        elif (right := _value(value, names[name].type, joined(key, name), found)) is not msgspec.UNSET:
+            values[names[name].name] = right
+    missing = [name for name, field in names.items() if field.required and name not in raw]
+    found += [Problem(0, 0, joined(key, name), "is missing") for name in missing]
+    return kind(**values)
 
 
 def _value(raw: Any, annotation: Any, key: str, found: list[Problem]) -> Any:
-    """A value of a table; UNSET if it does not fit."""
-    structs = [part for part in _parts_of(annotation) if isinstance(part, type) and issubclass(part, msgspec.Struct)]
-    lists = [part for part in _parts_of(annotation) if get_origin(part) is list and get_args(part)[0] in structs]
-    if lists and isinstance(raw, list) and raw:
-        nothing = structs[0](**{field.name: msgspec.UNSET for field in fields_of(structs[0]) if field.required})
-        items = [_table(item, structs[0], f"{key}[{k}]", found) for k, item in enumerate(raw)]
-        return [nothing if item is msgspec.UNSET else item for item in items]  # keeps the indices of the others
-    named = any(get_origin(part) is dict for part in _parts_of(annotation))
-    if structs and not lists and not named and isinstance(raw, dict):
-        return _table(raw, structs[0], key, found)
-    if structs and not lists and isinstance(raw, dict) and raw:
-        tables = {name: _table(each, structs[0], joined(key, name), found) for name, each in raw.items()}
+    """The checked value of a key of a table; UNSET if it does not fit its type."""
+    kind, form = _table_in(annotation)
+    if form is list and isinstance(raw, list) and raw:
+        nothing = kind(**{field.name: msgspec.UNSET for field in fields_of(kind) if field.required})
+        items = [_table(item, kind, f"{key}[{k}]", found) for k, item in enumerate(raw)]
+        return [nothing if item is msgspec.UNSET else item for item in items]  # the others have their indices
+    if form is dict and isinstance(raw, dict) and raw:
+        tables = {name: _table(each, kind, joined(key, name), found) for name, each in raw.items()}
         return {name: table for name, table in tables.items() if table is not msgspec.UNSET}
+    if kind and form not in (list, dict) and isinstance(raw, dict):
+        return _table(raw, kind, key, found)
     try:
-        return msgspec.convert(raw, _set(annotation))
+        return msgspec.convert(raw, annotation)
     except (msgspec.ValidationError, OverflowError) as error:
         sentence, _, path = str(error).partition(" - at `$")
         found.append(Problem(0, 0, key + path.rstrip("`"), _reason(sentence, key, raw, path.rstrip("`"), annotation)))
@@ -318,16 +299,12 @@ def _value(raw: Any, annotation: Any, key: str, found: list[Problem]) -> Any:
     return msgspec.UNSET
 
 
-@cache
-def _set(annotation: Any) -> Any:
-    """The annotation without the type of a missing key."""
-    if msgspec.UnsetType not in _parts_of(annotation):
-        return annotation
-    if get_origin(annotation) is Annotated:
-        return _set(get_args(annotation)[0])
-    if get_origin(annotation) in (Union, UnionType):
-        return Union[tuple(part for part in get_args(annotation) if part is not msgspec.UnsetType)]
-    return annotation
+def _table_in(annotation: Any) -> tuple[Any, Any]:
+    """The kind of table inside an annotation, or None; then `list` or `dict` if it is for several tables, or None."""
+    parts = list(_parts_of(annotation))
+    kind = next((part for part in parts if isinstance(part, type) and issubclass(part, msgspec.Struct)), None)
+    forms = [get_origin(part) for part in parts if kind and kind in get_args(part)]
+    return kind, next((form for form in forms if form in (list, dict)), None)
 
 
 _GYRATION = "give radius_of_gyration, the square root of inertia / mass, about the centre of gravity"
@@ -353,19 +330,17 @@ INSTEAD = {
     "density": "give the mass",
     "diameter": "give radius_of_gyration",
 }
-TABLES = {"links": "[[links]]"}
-EXAMPLES = {"vary": 'say what varies, such as vary."links[0].mass" = {values = [1, 2]}'}
 
 
 def _instead(name: str, kind: type) -> str:
-    """The hint for an unknown key."""
+    """The end of the message for an unknown key: what to write instead."""
     known = _known_keys(kind)
     if name in QUESTIONS and "ask" in known:
         return f"write [ask.{name}]"
     if name.lower() in INSTEAD:
         return INSTEAD[name.lower()].format(speed="spin" if "spin" in known else "angular_speed")
     if near := get_close_matches(name, known, n=1):
-        return f"did you mean {TABLES.get(near[0], near[0])}?"
+        return f"did you mean {'[[links]]' if near[0] == 'links' else near[0]}?"
     if name in BESIDE:
         return "belongs in [scene]" if "scene" in known else "belongs at the top of the file, above the first table"
     if name in _known_keys(Link):
@@ -374,7 +349,7 @@ def _instead(name: str, kind: type) -> str:
 
 
 def _reason(sentence: str, key: str, raw: Any, path: str, annotation: Any) -> str:
-    """A sentence of msgspec in the terms of a scene file."""
+    """An error message of msgspec in the words of a scene file."""
     value = _at(raw, path)
     got = f", got {written(value)}"
     limit = re.fullmatch(r"Expected `\w+` (>|>=|<=) (\S+)", sentence)
@@ -389,14 +364,15 @@ def _reason(sentence: str, key: str, raw: Any, path: str, annotation: Any) -> st
         return choice(words_allowed, int in parts, value)
     if "array` of length" in sentence:
         return f"must be a pair {'[mean, deviation]' if key.endswith('normal') else '[low, high]'}{got}"
-    structs = any(isinstance(part, type) and issubclass(part, msgspec.Struct) for part in parts)
+    structs = _table_in(annotation)[0] is not None
     lists = any(get_origin(part) in (list, tuple) for part in parts)
     if not isinstance(value, list) and lists and structs and not path:
         if isinstance(value, dict):
             return f"is a list of tables: write [[{key}]], with two brackets, above each of them"
         return f"must be tables{got}: write [[{key}]] above each of them, and below it mass = 1.0 and length = 0.5"
     if sentence.endswith(" of length >= 1"):
-        return f"is empty: {EXAMPLES.get(key, 'give at least one')}"
+        example = 'say what varies, such as vary."links[0].mass" = {values = [1, 2]}'
+        return f"is empty: {example if key == 'vary' else 'give at least one'}"
     if isinstance(value, list) and value and structs and not lists:
         return f"is one table: write [{key}], with one pair of brackets"
     steps = re.findall(r"[a-z_]+", key)
@@ -452,14 +428,14 @@ def written(value: Any, width: int = 60) -> str:
 
 
 def _at(raw: Any, path: str) -> Any:
-    """The item at a path such as ``[1]``."""
+    """The item of a list at a path such as ``[1]``."""
     for index in re.findall(r"\[(\d+)\]", path):
         raw = raw[int(index)]
     return raw
 
 
 def _parts_of(annotation: Any) -> Iterator[Any]:
-    """The annotation and everything inside it."""
+    """The annotation itself, and each type inside it."""
     yield annotation
     if get_origin(annotation) is not Literal:
         for argument in get_args(annotation):
@@ -470,27 +446,24 @@ def _annotation_at(kind: type, key: str) -> Any:
     """The type of the value at a key path; None if there is no such key."""
     found: Any = kind
     for name in re.findall(r"[^.\[\]]+", re.sub(r"\[\d+\]", "", key)):
-        structs = [part for part in _parts_of(found) if isinstance(part, type) and issubclass(part, msgspec.Struct)]
-        fields = [field for struct in structs[:1] for field in fields_of(struct) if field.encode_name == name]
-        found = fields[0].type if fields else None
+        kind = _table_in(found)[0]
+        found = next((field.type for field in fields_of(kind) if field.encode_name == name), None) if kind else None
     return found
 
 
 def without_consequences(problems: Iterable[Problem]) -> list[Problem]:
     """The problems without those of a table that follow from a problem of one of its keys."""
-    kept: list[Problem] = []
-    ordered: list[tuple[str, str]] = []  # keys and reasons of those kept, sorted
-    there: set[str] = set()
+    remaining: list[Problem] = []
+    inside = defaultdict[str, list[tuple[str, str]]](list)  # by table: last part of the key and reason of its problems
+    known: set[str] = set()
     for problem in problems:
         key = problem.key
-        ends = [bisect(ordered, (key + mark,)) for mark in "./[\\"]  # each pair of marks follow one another in Unicode
-        inside = chain(ordered[ends[0] : ends[1]], ordered[ends[2] : ends[3]])
-        because = key and any(
-            reason.startswith("unknown key") or name.rpartition(".")[2] in problem.reason for name, reason in inside
-        )
-        if not because and key not in there:
-            kept.append(problem)
-            insort(ordered, (key, problem.reason))
-            if key and ": line " not in problem.reason:  # what is wrong with another file has one key
-                there.add(key)
-    return kept
+        because = any(reason.startswith("unknown key") or name in problem.reason for name, reason in inside[key])
+        if because or key in known:
+            continue
+        remaining.append(problem)
+        for mark in re.finditer(r"[.\[]", key):
+            inside[key[: mark.start()]].append((key.rpartition(".")[2], problem.reason))
+        if key and ": line " not in problem.reason:  # what is wrong with another file has one key
+            known.add(key)
+    return remaining

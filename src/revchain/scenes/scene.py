@@ -14,17 +14,13 @@ from .. import _core
 from ..systems.numbers import text
 from . import parse
 from .answer import SPEEDS, answered, arguments
-from .ask import QUESTIONS, TABLES, AskExplain, AskModes
-from .chain import Numbers, of_file
 from .error import Problem, SceneError
-from .system import System as System
-from .system import Tables, system_of
-from .system import is_by_mass as is_by_mass
-from .tables import BESIDE, SYSTEMS, Table
+from .system import Numbers, System, problem_of, system_of
+from .tables import BESIDE, QUESTIONS, SYSTEMS, TABLES, AskExplain, AskModes, Table, Tables
 
 __all__ = ["Scene", "load_scene"]
 
-EXCLUSIVE = (*SPEEDS, "count", "first")
+EXCLUSIVE = (*SPEEDS["shapes"], *SPEEDS["branches"], "count", "first")
 # By the id of each living scene. A struct with `dict=True` could hold this, but msgspec before 0.21 crashes with it on
 # Python 3.13; a frozen struct with lists has no hash, so that it is no key of a WeakKeyDictionary.
 _MADE: dict[int, tuple["weakref.ref[Scene]", dict[str, Any]]] = {}
@@ -159,7 +155,7 @@ class Scene(Tables, frozen=True, weakref=True):
         Raises
         ------
         SceneError
-            If `gravity` is not a positive acceleration.
+            If the numbers do not describe a possible system, or gravity is not a positive acceleration.
 
         Examples
         --------
@@ -167,10 +163,7 @@ class Scene(Tables, frozen=True, weakref=True):
         >>> rc.Scene.from_dict({"gravity": "981 cm/s^2", "links": [{"mass": 1, "length": 1}]}).gravity_value()
         9.81
         """
-        numbers = Numbers("scene")
-        gravity = numbers.value("gravity", self.gravity, "gravity", "positive")
-        numbers.done()
-        return gravity
+        return self._built()[1]
 
     def system(self) -> System:
         """Return the system of the scene in SI units, by mass, or by weight if the scene has a weight.
@@ -244,9 +237,9 @@ class Scene(Tables, frozen=True, weakref=True):
             given = arguments(question, self._table(question, changed), system, numbers)
             numbers.done()
         try:
-            return answered(question, system, dict(given), gravity, progress)
+            return answered(question, system, given, gravity, progress)
         except ValueError as error:
-            raise of_file(error, "scene", "", self._bodies()) from None
+            raise SceneError("scene", problems=[problem_of(error, "", self._bodies())]) from None
 
     def _table(self, question: str, changed: dict[str, Any]) -> Table:
         """The table of a question, with the values of `changed`."""
@@ -273,28 +266,26 @@ class Scene(Tables, frozen=True, weakref=True):
             _MADE[key] = weakref.ref(self, lambda _, made=_MADE: made.pop(key, None)), {}  # type: ignore[misc]
         return _MADE[key][1]
 
-    def _built(self) -> tuple[System, float]:
+    def _built(self, source: str = "scene") -> tuple[System, float]:
         """The system and the gravity, made once. All problems are raised as one error."""
         made = self._made()
         if "system" not in made:
-            made["system"] = system_of(self, "scene")
+            made["system"] = system_of(self, source)
         built: tuple[System, float] = made["system"]
         return built
 
     def _problems(self, source: str, known: list[Problem]) -> list[Problem]:
-        """All problems of the scene, with those already known; if there are none, what is made on the way is kept."""
-        numbers, made = Numbers(source), dict[str, Any](system=(None, 0.0))
+        """All problems of the scene, with those already known; if there are none, its cache is full."""
+        numbers, system = Numbers(source), None
         given = [name for name in SYSTEMS if getattr(self, name) is not UNSET]
         if given or all(re.split(r"[.\[]", problem.key)[0] in ("", *BESIDE) for problem in known):
             try:
-                made["system"] = system_of(self, source)
+                system, _ = self._built(source)
             except SceneError as error:
                 numbers.problems[:] = error.problems
-        for question in self.asks:
-            made[question] = arguments(question, getattr(self.ask, question), made["system"][0], numbers)
-        if not known and not numbers.problems:
-            self._made().update(made)
-            return []
+        found = {name: arguments(name, getattr(self.ask, name), system, numbers) for name in self.asks}
+        if not numbers.problems:
+            self._made().update(found)
         return parse.without_consequences([*known, *numbers.problems])
 
 
@@ -338,7 +329,7 @@ def load_scene(path: str | os.PathLike[str]) -> Scene:
 
 
 def read(path: str | os.PathLike[str], changed: dict[str, Any]) -> Scene:
-    """The scene of a file, with other values of some of its keys."""
+    """Read the scene of a file, with other values of some of its keys."""
     with parse.opened(path) as (raw, problems):
         return Scene._read(raw | changed if isinstance(raw, dict) else raw, os.fspath(path), problems)
 

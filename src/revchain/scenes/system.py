@@ -1,84 +1,142 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The tables of a scene file, and the system that they describe."""
+"""The system of a scene, built from its tables: units, masses and weights, repeated links; each error has its key."""
+
+from __future__ import annotations
 
 import math
 import re
-from typing import Annotated, Any, Literal
+from collections.abc import Sequence
+from itertools import accumulate
+from typing import Any
 
 import numpy as np
 from msgspec import UNSET, UnsetType, json
 
-from ..systems import rig
 from ..systems.chain import Chain
-from ..systems.cord import Cord as CordSystem
-from ..systems.held import Held as HeldSystem
-from ..systems.numbers import STANDARD_GRAVITY
-from ..systems.rig import Rig
-from .ask import Ask
-from .chain import Links, Numbers, chain_of_links, of_file, whole, without_place
-from .error import SceneError
-from .tables import (
-    SYSTEMS,
-    Cord,
-    Displaced,
-    Flywheel,
-    Held,
-    Link,
-    Positive,
-    Support,
-    Table,
-    TaperedChain,
-    UniformChain,
-    says,
-)
+from ..systems.cord import Cord
+from ..systems.held import Held
+from ..systems.rig import Displaced, Flywheel, Rig, Support
+from ..systems.units import si_value
+from . import tables
+from .error import Problem, SceneError
+from .parse import without_consequences, written
+from .tables import MOST_LINKS, SYSTEMS, Link, Links, Spread, Table, Tables, number_fields
 
-System = Chain | Rig | CordSystem | HeldSystem
+System = Chain | Rig | Cord | Held
+Given = dict[str, Any]
 
 
-class Tables(Table, frozen=True):
-    """The keys of a scene file."""
+class Numbers:
+    """Numbers of one table: text with units converted, ranges checked, errors noted with the key path.
 
-    schema_version: Annotated[Literal[2], says("Version of this format.")] = 2
-    title: Annotated[str, says("Title in one line.")] = ""
-    description: Annotated[str, says("Description of any length.")] = ""
-    gravity: Annotated[Positive, says("Acceleration of gravity (m/s^2).")] = STANDARD_GRAVITY
-    order: Annotated[Literal["free end first", "support first"], says("Order of the links.")] = "free end first"
-    links: Annotated[list[Link] | UnsetType, says("The links, in the given order.")] = UNSET
-    uniform_chain: Annotated[UniformChain | UnsetType, says("Equal links, instead of links.")] = UNSET
-    tapered_chain: Annotated[
-        TaperedChain | UnsetType, says("Links cut from a tapering cord, instead of links.")
-    ] = UNSET
-    cord: Annotated[Cord | UnsetType, says("A flexible cord, instead of links.")] = UNSET
-    support: Annotated[Support | UnsetType, says("Support of the chain; a firm point on the axis if left out.")] = UNSET
-    fluid: Annotated[Literal["still", "turning"], says("Motion of the fluid: at rest, or turning with the chain.")] = "still"
-    held: Annotated[Held | UnsetType, says("Data of a chain or cord that is held at both ends.")] = UNSET
-    ask: Annotated[Ask, says("Questions to answer.")] = Ask()
+    A wrong number is NaN; `done` raises one error for all of them. If the whole scene is given by mass, masses stay
+    masses, else they are multiplied by gravity.
+    """
 
-    def _links(self) -> Links:
-        """The tables of the links, lowest first, with their numbers in the file."""
-        links = [] if isinstance(self.links, UnsetType) else list(enumerate(self.links))
-        return links[::-1] if self.order == "support first" else links
+    def __init__(self, source: str, table: str = "", *, gravity: float = 1.0, by_mass: bool = True) -> None:
+        self.source = source
+        self.table = table
+        self.problems: list[Problem] = []
+        self.gravity = gravity
+        self.by_mass = by_mass
 
-    def _bodies(self) -> Links:
-        """The tables that are links of the system; a clamped one is part of the link above."""
-        return [(index, link) for index, link in self._links() if not link.clamped]
+    def of(self, table: str) -> Numbers:
+        """The numbers of a table inside this one; errors are noted together."""
+        inside = Numbers(self.source, f"{self.table}.{table}".lstrip("."), gravity=self.gravity, by_mass=self.by_mass)
+        inside.problems = self.problems
+        return inside
 
     @property
-    def is_rigged(self) -> bool:
-        """Whether the scene has more than a chain that hangs from a firm point on the axis."""
-        links = [] if isinstance(self.links, UnsetType) else self.links
-        unlike = [link.standing or link.flywheel is not UNSET or link.displaced is not UNSET for link in links]
-        return self.support is not UNSET or any(unlike)
+    def heavy(self) -> str:
+        """The key of a weight: ``mass`` or ``weight``."""
+        return "mass" if self.by_mass else "weight"
 
-    @property
-    def is_held(self) -> bool:
-        """Whether the lower end is also held."""
-        return self.held is not UNSET
+    def refuse(self, key: str, reason: str) -> None:
+        """Note an error of a key of this table."""
+        self.problems.append(Problem(0, 0, f"{self.table}.{key}".strip("."), reason))
+
+    def done(self) -> None:
+        """Raise a SceneError if an error was noted."""
+        if self.problems:
+            raise SceneError(self.source, problems=without_consequences(self.problems))
+
+    def value(self, key: str, given: object, quantity: str, sign: str, finite: bool = True) -> float:
+        """A number or text with a unit in the SI unit of the quantity."""
+        if given is UNSET:  # missing or of a wrong kind; the error is noted already
+            return math.nan
+        assert isinstance(given, float | int | str)
+        try:
+            number = si_value(given, quantity) if isinstance(given, str) else float(given)
+        except ValueError as error:
+            self.refuse(key, str(error))
+            return math.nan
+        if math.isnan(number) or (finite and math.isinf(number)):
+            must = "be finite" if finite else "be a number"
+        elif sign == "positive" and not number > 0:
+            must = "be positive"
+        elif sign == "not negative" and not number >= 0:
+            must = "not be negative"
+        else:
+            return number
+        self.refuse(key, f"must {must}, got {written(given)}")
+        return math.nan
+
+    def values(self, key: str, given: Any, sign: str) -> Any:
+        """The value of a key that is named as its quantity: a number, a pair, or an array from a list or a range."""
+        if isinstance(given, tuple):
+            return tuple([self.value(f"{key}[{k}]", end, key, sign, finite=False) for k, end in enumerate(given)])
+        if isinstance(given, list):
+            if not given:
+                self.refuse(key, "is an empty list")
+            return np.array([self.value(f"{key}[{k}]", each, key, sign) for k, each in enumerate(given)])
+        if isinstance(given, Spread):
+            ends = {"from": given.first, "to": given.last}
+            first, last = [self.value(f"{key}.{name}", end, key, sign) for name, end in ends.items()]
+            if given.log and first * last <= 0:
+                self.refuse(f"{key}.log", "equal ratios need ends that are not 0 and have the same sign")
+                return math.nan
+            return (np.geomspace if given.log else np.linspace)(first, last, given.steps)
+        if isinstance(given, str) and (words := re.fullmatch(r"(\S.*?)\s+to\s+(.+)", given)):
+            self.refuse(key, f'a range is written {{from = "{words[1]}", to = "{words[2]}"}}, got "{given}"')
+            return math.nan
+        return self.value(key, given, key, sign)
+
+    def read(self, table: Table | UnsetType) -> Given:
+        """All numbers given in the table, by key; what is heavy under the keys of masses, or else of weights."""
+        found: Given = {}
+        if isinstance(table, UnsetType):
+            return found
+        for name, sign, required in number_fields(type(table)):
+            given = getattr(table, name)
+            if given is not UNSET or required:
+                found[name] = self.value(name, given, name, sign)
+        for prefix in ("", "tip_", "added_"):
+            if hasattr(table, f"{prefix}mass"):
+                self._weigh(table, prefix, found)
+        return found
+
+    def _weigh(self, table: Table, prefix: str, found: Given) -> None:
+        """Replace mass and weight, the keys with a prefix, by one of them; by none where it may be left out."""
+        given = {name: found.pop(name) for name in (f"{prefix}weight", f"{prefix}mass") if name in found}
+        optional = prefix or isinstance(table, tables.Support)
+        [key, *others] = given or [""]
+        heavy = 0.0 if optional and not given else math.nan
+        if others:
+            self.refuse(key, f"is given beside {others[0]}: give one of them, not both")
+        elif given:
+            factor = 1.0 if key.endswith(self.heavy) else 1 / self.gravity if self.by_mass else self.gravity
+            heavy = given[key] * factor
+            if math.isinf(heavy):
+                self.refuse(key, f"is too large, got {written(getattr(table, key))}")
+        elif not optional:
+            self.refuse("", "mass (kg) or weight (N) is missing")
+        if heavy or not optional:
+            found[prefix + self.heavy] = heavy
 
 
 def is_by_mass(scene: Tables) -> bool:
     """Whether masses stay masses: the scene has no weight, or no gravity."""
-    if isinstance(scene.held, Held) and scene.held.weightless:
+    if isinstance(scene.held, tables.Held) and scene.held.weightless:
         return True
     return re.search(rb'weight":', json.encode(scene)) is None  # a key: quotes inside text have a backslash
 
@@ -88,122 +146,227 @@ def system_of(scene: Tables, source: str) -> tuple[System | None, float]:
 
     All other problems are raised as one error.
     """
-    numbers = Numbers(source, by_mass=is_by_mass(scene))
     given = [name for name in SYSTEMS if getattr(scene, name) is not UNSET]
     if len(given) != 1:
-        tables = "[[links]], [uniform_chain], [tapered_chain] or [cord]"
-        raise SceneError(source, "", f"give one of {tables}, got {' and '.join(given) or 'none of them'}")
+        choice = "[[links]], [uniform_chain], [tapered_chain] or [cord]"
+        raise SceneError(source, "", f"give one of {choice}, got {' and '.join(given) or 'none of them'}")
+    numbers = Numbers(source, by_mass=is_by_mass(scene))
     numbers.gravity = numbers.value("gravity", scene.gravity, "gravity", "positive")
     if scene.links == []:
         raise SceneError(source, "links", "is an empty list: give at least one link")
-    made: Chain | CordSystem | None = None
-    try:
-        if links := scene._links():
-            made = chain_of_links(links, numbers)
-        else:
-            made = whole(given[0], getattr(scene, given[0]), numbers)
-    except SceneError as error:
-        numbers.problems[:] = error.problems
-    ends: HeldSystem | None = None
+    links = scene._links()
+    made = _chain_of_links(links, numbers) if links else _whole(getattr(scene, given[0]), numbers.of(given[0]))
+    system: System | None = made
     if scene.is_rigged and (scene.held is not UNSET or scene.cord is not UNSET):
         name = "cord" if scene.held is UNSET else "held"
         numbers.refuse(name, "does not go with a support, standing links, flywheels or a fluid")
     elif scene.is_rigged:
-        assert not isinstance(made, CordSystem)
-        return _rig(made, scene, numbers), numbers.gravity
+        assert not isinstance(made, Cord)
+        system = _rig(made, scene, numbers)
     elif not isinstance(scene.held, UnsetType):
-        ends = _held(scene.held, made, numbers.of("held"))
+        system = _held(scene.held, made, numbers.of("held"))
     numbers.done()
-    return ends or made, numbers.gravity
+    return system, numbers.gravity
+
+
+def _whole(table: tables.Whole, numbers: Numbers) -> Chain | Cord | None:
+    """The chain or cord of a table; None if a number is wrong, which is noted already."""
+    given = numbers.read(table)
+    if numbers.problems or math.isnan(sum(given.values())):
+        return None
+    try:
+        if isinstance(table, tables.Cord):
+            return Cord(**given, density=table.density)
+        tip = given.pop(f"tip_{numbers.heavy}", 0.0)
+        if isinstance(table, tables.TaperedChain):
+            chain = Chain.tapered(table.count, **given, exponent=table.exponent)
+        else:
+            assert isinstance(table, tables.UniformChain)
+            chain = (Chain.uniform_rods if table.kind == "rods" else Chain.uniform_plummets)(table.count, **given)
+        return chain.with_body(**{numbers.heavy: tip}) if tip else chain
+    except ValueError as error:
+        numbers.problems.append(problem_of(error, numbers.table))
+        return None
+
+
+def _chain_of_links(links: Links, numbers: Numbers) -> Chain | None:
+    """The chain that the links make; None if a number is wrong, which is noted already."""
+    repeats = [link.repeat for _, link in links]
+    if (count := sum(repeats)) > MOST_LINKS:
+        more = "use fewer and longer links, or [cord]"
+        numbers.refuse("links", f"must be at most {MOST_LINKS:,} together with their repeats, got {count:,}; {more}")
+        return None
+    bodies, tips = [], []
+    for nth, (index, link) in enumerate(links):
+        inside = numbers.of(f"links[{index}]")
+        found = inside.read(link)
+        tips.append(found.pop(f"tip_{numbers.heavy}", 0.0))
+        bodies.append(_body(link, found, inside))
+        _check_joints(link, tips[-1], [above for _, above in links[nth + 1 : nth + 2]], inside)
+    if numbers.problems or math.isnan(sum(sum(body.values()) for body in bodies) + sum(tips)):
+        return None
+    given = _columns(bodies, repeats)
+    if not given["radius_of_gyration"].any() and np.array_equal(given["centroid"], given["length"]):
+        del given["centroid"], given["radius_of_gyration"]
+    names = [link.name for _, link in links for _ in range(link.repeat)] if any(link.name for _, link in links) else []
+    try:
+        chain = Chain(**given, names=[name or f"links[{k}]" for k, name in enumerate(names)] or None)
+        firsts = accumulate(repeats[:-1], initial=0)
+        from_above = list(zip(firsts, tips, links, strict=True))[::-1]  # so that the numbers of lower pins stay valid
+        for first, tip, (_, link) in from_above:
+            if tip:
+                chain = chain.with_body(**{numbers.heavy: tip}, pin=first)
+            if link.clamped:
+                chain = chain.clamped(first)
+        return chain
+    except ValueError as error:
+        numbers.problems.append(problem_of(error, "links", links))
+        return None
+
+
+def _columns(rows: list[Given], repeats: list[int]) -> Given:
+    """An array of each key of the rows, with each row repeated."""
+    return {name: np.repeat([row[name] for row in rows], repeats) for name in rows[0]}
+
+
+def _check_joints(link: Link, tip: float, above: list[Link], numbers: Numbers) -> None:
+    """Note errors of a link with a weight at its lower pin, or clamped to the link above."""
+    if tip and link.repeat > 1:
+        numbers.refuse("repeat", f"must be 1 where a weight is fixed to the lower pin, got {link.repeat}")
+    if not link.clamped:
+        return
+    if not above:
+        numbers.refuse("clamped", "there is no link above")
+    for name in ("standing", "flywheel", "displaced"):
+        if getattr(link, name) not in (False, UNSET):
+            numbers.refuse(name, "must be given for the link above, to which this one is clamped")
+    if max(link.repeat, *(each.repeat for each in above), 1) > 1:
+        numbers.refuse("clamped", "needs repeat = 1, here and in the link above")
+
+
+def _body(link: Link, given: Given, numbers: Numbers) -> Given:
+    """Mass or weight, length, centroid and radius of gyration of a link from the numbers given for it."""
+    length = given["length"]
+    body = {numbers.heavy: given[numbers.heavy], "length": length, "centroid": length, "radius_of_gyration": 0.0}
+    if link.kind is not UNSET or link.centroid is UNSET:
+        for key in ("centroid", "pendulum_length", "radius_of_gyration"):
+            if key in given:
+                reason = "needs centroid beside it" if link.kind is UNSET else f'does not go with kind = "{link.kind}"'
+                numbers.refuse(key, reason)
+        rod = {"centroid": length / 2, "radius_of_gyration": length / math.sqrt(12)}
+        return body | (rod if link.kind == "rod" else {})
+    centroid, radius = given["centroid"], given.get("radius_of_gyration", math.nan)
+    if ("pendulum_length" in given) == ("radius_of_gyration" in given):
+        numbers.refuse("centroid", "needs either pendulum_length or radius_of_gyration beside it")
+    elif "pendulum_length" in given:
+        squared = centroid * (given["pendulum_length"] - centroid)
+        if centroid == 0:
+            reason = "does not determine the inertia if centroid is 0; give radius_of_gyration"
+            numbers.refuse("pendulum_length", reason)
+        elif 0 <= squared < math.inf:
+            radius = math.sqrt(squared)
+        elif not math.isnan(squared):
+            product = f"centroid (pendulum_length - centroid) is {squared:g}"
+            numbers.refuse("pendulum_length", f"makes the radius of gyration imaginary: {product}")
+    return body | {"centroid": centroid, "radius_of_gyration": radius}
 
 
 def _rig(chain: Chain | None, scene: Tables, numbers: Numbers) -> Rig | None:
     """The rig of a chain. If the chain was refused (None), the errors of the other tables are noted, too."""
     links = scene._bodies()
     repeats = [link.repeat for _, link in links]
-    firsts = np.cumsum([0, *repeats])
-    given: dict[str, Any] = {"fluid": scene.fluid}
-    if not isinstance(scene.support, UnsetType):
-        given["support"] = _support(scene.support, numbers.of("support"))
+    support = _support(scene.support, numbers.of("support"))
+    heavy, added = numbers.heavy, f"added_{numbers.heavy}"
     wheels, fluids = [], []
-    for (index, link), first in zip(links, firsts, strict=False):
-        place = numbers.of(f"links[{index}]")
-        own = (0.0, 0.0) if chain is None else (float(chain.centroid[first]), float(chain.radius_of_gyration[first]))
-        wheels.append(_flywheel(link.flywheel, place.of("flywheel")))
-        fluids.append(_displaced(link.displaced, own, place.of("displaced")))
-        if scene.fluid == "turning" and fluids[-1][1] > 0:
-            place.refuse("displaced", f"must have no added_{numbers.heavy} in a fluid that turns with the chain")
-    numbers.done()
-    if chain is None:
+    for (index, link), first in zip(links, accumulate(repeats, initial=0), strict=False):
+        inside = numbers.of(f"links[{index}]")
+        wheel = {heavy: 0.0, "radius_of_gyration": 0.0, "spin": 0.0}
+        wheels.append(wheel | _flywheel(link.flywheel, inside.of("flywheel")))
+        fluid = {heavy: 0.0, added: 0.0}
+        if chain is not None:
+            fluid |= {name: getattr(chain, name)[first] for name in ("centroid", "radius_of_gyration")}
+        fluids.append(fluid | inside.of("displaced").read(link.displaced))
+        if scene.fluid == "turning" and fluids[-1][added] > 0:
+            inside.refuse("displaced", f"must have no {added} in a fluid that turns with the chain")
+    if numbers.problems or chain is None:
         return None
-
-    def columns(names: tuple[str, ...], rows: list[tuple[Any, ...]]) -> dict[str, Any]:
-        return {name: np.repeat(column, repeats) for name, column in zip(names, zip(*rows, strict=True), strict=True)}
-
-    if links:
-        given["inverted"] = np.repeat([link.standing for _, link in links], repeats)
+    given: Given = {"fluid": scene.fluid}
     try:
-        if "support" in given:
-            given["support"] = rig.Support(**given["support"])
+        if scene.support is not UNSET:
+            given["support"] = Support(**support)
+        if links:
+            given["inverted"] = np.repeat([link.standing for _, link in links], repeats)
         if any(link.flywheel is not UNSET for _, link in links):
-            names: tuple[str, ...] = (numbers.heavy, "radius_of_gyration", "spin", "driven")
-            given["flywheels"] = rig.Flywheel(**columns(names, wheels))
-        if any(link.displaced is not UNSET for _, link in links):
-            names = (numbers.heavy, f"added_{numbers.heavy}", "centroid", "radius_of_gyration")
-            displaced = columns(names, fluids)
-            if all(link.displaced is UNSET or link.displaced.radius_of_gyration is UNSET for _, link in links):
-                del displaced["radius_of_gyration"]  # that of the links, with all stored digits
-            given["displaced"] = rig.Displaced(**displaced)
+            driven = [link.flywheel is not UNSET and link.flywheel.driven for _, link in links]
+            given["flywheels"] = Flywheel(**_columns(wheels, repeats), driven=np.repeat(driven, repeats))
+        if displaced := [link.displaced for _, link in links if not isinstance(link.displaced, UnsetType)]:
+            columns = _columns(fluids, repeats)
+            if all(each.radius_of_gyration is UNSET for each in displaced):
+                del columns["radius_of_gyration"]  # that of the links, with all stored digits
+            given["displaced"] = Displaced(**columns)
         return Rig(chain, **given)
     except ValueError as error:
-        raise of_file(error, numbers.source, "links" if links else "support", links) from None
+        numbers.problems.append(problem_of(error, "links" if links else "support", links))
+        return None
 
 
-def _support(table: Support, numbers: Numbers) -> dict[str, float]:
-    """The arguments of a `Support`."""
+def _support(table: tables.Support | UnsetType, numbers: Numbers) -> Given:
+    """The arguments of a `Support`, from its table."""
     found = numbers.read(table)
-    if found["heavy"] > 0 and table.stiffness is UNSET:
+    if found.get(numbers.heavy, 0.0) > 0 and "stiffness" not in found:
         numbers.refuse("stiffness", "is missing: what moves sideways needs a support that yields")
-    given = {"stiffness": found.get("stiffness", math.inf), "radius": found.get("radius", 0.0)}
-    return given | {numbers.heavy: found["heavy"]} if found["heavy"] else given
+    return found
 
 
-def _flywheel(table: Flywheel | UnsetType, numbers: Numbers) -> tuple[float, float, float, bool]:
-    """Mass or weight, radius of gyration, spin, and whether it is driven."""
-    if isinstance(table, UnsetType):
-        return 0.0, 0.0, 0.0, False
+def _flywheel(table: tables.Flywheel | UnsetType, numbers: Numbers) -> Given:
+    """The numbers of a `Flywheel`; empty if the link has none."""
     found = numbers.read(table)
-    heavy, radius, spin = (found[name] for name in ("heavy", "radius_of_gyration", "spin"))
-    if math.isinf(heavy * radius * radius * spin):
-        numbers.refuse("spin", f"gives too large an angular momentum, got {table.spin}")
-    return heavy, radius, spin, table.driven
+    if not isinstance(table, UnsetType):
+        heavy, radius, spin = (found[name] for name in (numbers.heavy, "radius_of_gyration", "spin"))
+        if math.isinf(heavy * radius * radius * spin):
+            numbers.refuse("spin", f"gives too large an angular momentum, got {table.spin}")
+    return found
 
 
-def _displaced(
-    table: Displaced | UnsetType, own: tuple[float, float], numbers: Numbers
-) -> tuple[float, float, float, float]:
-    """Mass or weight displaced, and added, centroid, radius of gyration; `own` are the last two of the link."""
-    if isinstance(table, UnsetType):
-        return 0.0, 0.0, *own
-    found = {"centroid": own[0], "radius_of_gyration": own[1], **numbers.read(table)}
-    return found["heavy"], found["added_heavy"], found["centroid"], found["radius_of_gyration"]
-
-
-def _held(table: Held, system: Chain | CordSystem | None, numbers: Numbers) -> HeldSystem | None:
+def _held(table: tables.Held, system: Chain | Cord | None, numbers: Numbers) -> Held | None:
     """The chain or cord held at both ends; None if it was refused, which is noted already."""
     if (table.span is UNSET) == (table.tension is UNSET):
         numbers.refuse("", "give either span or tension")
         return None
-    given: dict[str, Any] = {**numbers.read(table), "weightless": table.weightless}
-    tables = {end: getattr(table, end) for end in ("lower", "upper") if getattr(table, end) is not UNSET}
-    ends = {end: _support(support, numbers.of(end)) for end, support in tables.items()}
-    numbers.done()
-    if system is None:
+    given = numbers.read(table)
+    supports = {end: getattr(table, end) for end in ("lower", "upper") if getattr(table, end) is not UNSET}
+    ends = {end: _support(support, numbers.of(end)) for end, support in supports.items()}
+    if numbers.problems or system is None:
         return None
     try:
-        given |= {end: rig.Support(**support) for end, support in ends.items()}
-        return HeldSystem(system, **given)
+        given |= {end: Support(**support) for end, support in ends.items()}
+        return Held(system, **given, weightless=table.weightless)
     except ValueError as error:
-        reason = without_place(error)
+        reason = without_function(error)
         key = next(filter(reason.startswith, ends), "span" if table.tension is UNSET else "tension")
-        raise SceneError(numbers.source, f"held.{key}", reason.removeprefix(f"{key} ")) from None
+        numbers.refuse(key, reason.removeprefix(f"{key} "))
+        return None
+
+
+def without_function(error: object) -> str:
+    """The sentence of an error without the name of a function."""
+    return re.sub(r"^revchain(::|\.)[\w:.]+?: ", "", str(error))
+
+
+def in_file(sentence: str, links: Links) -> str:
+    """A sentence of the core with the link numbers of the file; the core counts links from the free end with repeats."""
+    ends = np.cumsum([link.repeat for _, link in links])
+
+    def there(found: re.Match[str]) -> str:
+        index, link = links[int(np.searchsorted(ends, int(found[1]), side="right"))]
+        return f"links[{index}]" + (f' ("{link.name}")' if link.name else "")
+
+    return re.sub(r"links\[(\d+)\]", there, sentence) if links else sentence
+
+
+def problem_of(error: ValueError, key: str, links: Sequence[tuple[int, Link]] = ()) -> Problem:
+    """An error of the core as a problem of the file, with the key of the link that it names, or else with `key`."""
+    sentence = in_file(without_function(error), list(links))
+    if links and sentence.startswith("links[") and ": " in sentence:
+        key, _, sentence = sentence.partition(": ")
+    return Problem(0, 0, key, sentence)

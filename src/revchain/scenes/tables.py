@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The tables of a scene file that describe the system: their keys, the types, and the texts that editors show."""
+"""The tables of a scene file: their keys, the types, and the texts that editors show."""
 
 from functools import cache, partial
 from typing import Annotated, Any, Literal, get_args
@@ -7,11 +7,12 @@ from typing import Annotated, Any, Literal, get_args
 from msgspec import UNSET, Meta, Struct, UnsetType
 from msgspec.structs import fields
 
+from ..systems.numbers import STANDARD_GRAVITY
 from ..systems.units import PATTERN
 
 
 def says(text: str) -> Meta:
-    """The text that editors show for a key."""
+    """Metadata of a key: the text that editors show for it."""
     return Meta(description=text)
 
 
@@ -31,23 +32,6 @@ Count = Annotated[int, Meta(ge=1, le=MOST_LINKS)]
 
 
 fields_of = cache(fields)  # `fields` takes a millisecond in each call
-
-
-_SIGNS = {
-    AnySign: "any",
-    MaybeAnySign: "any",
-    Positive: "positive",
-    MaybePositive: "positive",
-    NotNegative: "not negative",
-    MaybeNotNegative: "not negative",
-}
-
-
-@cache
-def number_fields(kind: type[Struct]) -> list[tuple[str, str, bool]]:
-    """Name of each key that is a number or text with a unit, its sign in words, and whether it must be given."""
-    types = [(field, get_args(field.type)[0]) for field in fields_of(kind)]
-    return [(field.name, _SIGNS[of], field.required) for field, of in types if of in _SIGNS]
 
 
 class Table(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True, repr_omit_defaults=True, kw_only=True):
@@ -181,3 +165,176 @@ class Held(Table, frozen=True):
     weightless: Annotated[bool, says("Whether gravity is left out.")] = False
     lower: Annotated[End | UnsetType, says("Support of the lower end; a firm point on the axis if left out.")] = UNSET
     upper: Annotated[End | UnsetType, says("Support of the upper end; a firm point on the axis if left out.")] = UNSET
+
+
+DEFAULT_MODES = 10
+
+Pair = tuple[NotNegative, NotNegative]
+
+
+class Spread(Table, frozen=True, rename={"first": "from", "last": "to"}):
+    """Numbers from a first to a last one, both included."""
+
+    last: Annotated[AnySign, says("Last number.")]
+    first: Annotated[AnySign, says("First number.")] = 0.0
+    steps: Annotated[Count, says("Number of values.")] = 200
+    log: Annotated[bool, says("Whether the numbers have equal ratios instead of equal differences.")] = False
+
+
+Listed = list[AnySign]
+# Its text has no pattern: msgspec 0.22 crashes for text with a pattern beside a list.
+OneOrMore = float | str | Listed | Spread
+
+
+class AskModes(Table, frozen=True):
+    """The modes: whirl speeds, shapes, nodes (`revchain.modes`). Give `count` and `first`, or one window."""
+
+    count: Annotated[
+        Count | Literal["all"] | UnsetType,
+        says('Number of modes, slowest first, or "all"; if left out 10, or all if there are fewer.'),
+    ] = UNSET
+    first: Annotated[Count | UnsetType, says("Number of the first mode; the slowest mode is 1.")] = UNSET
+    angular_speed: Annotated[Pair | UnsetType, says("Window [low, high]: low <= whirl speed < high (rad/s).")] = UNSET
+    conical_height: Annotated[Pair | UnsetType, says("Window [low, high]: low < conical height <= high (m).")] = UNSET
+    rtol: Annotated[MaybeNotNegative, says('Relative tolerance of the heights, such as "1 %".')] = UNSET
+    certify: Annotated[bool, says("Whether to prove each height with an interval and its counts.")] = False
+    precision: Annotated[
+        Literal["double", "extended", "double-double"], says("Arithmetic of the results.")
+    ] = "double"
+    method: Annotated[str | UnsetType, says("Method, one of those that explain lists; the cheapest if left out.")] = UNSET
+
+
+class AskShapes(Table, frozen=True):
+    """Every steady shape (relative equilibrium) at one speed, at any inclination (`revchain.steady_shapes`)."""
+
+    angular_speed: Annotated[MaybePositive, says("Speed (rad/s); or give conical_height.")] = UNSET
+    conical_height: Annotated[MaybePositive, says("Conical height g / n^2 (m); or give angular_speed.")] = UNSET
+    hanging_only: Annotated[bool, says("Whether to leave out shapes with links above their pins.")] = True
+    direction: Annotated[Literal[1, -1], says("Direction of rotation; only flywheels depend on it.")] = 1
+    max_half_waves: Annotated[
+        Count | UnsetType, says("Largest number of half waves between two held ends; 1 if left out.")
+    ] = UNSET
+
+
+class AskResponse(Table, frozen=True):
+    """Small forced motion of a chain whose support moves in a circle or to and fro (`revchain.response`)."""
+
+    angular_speed: Annotated[
+        OneOrMore | UnsetType,
+        says("A speed (rad/s), a list of speeds, or {from, to, steps, log}; negative only with flywheels."),
+    ] = UNSET
+    conical_height: Annotated[
+        OneOrMore | UnsetType, says("Conical heights g / n^2 (m), instead of angular_speed.")
+    ] = UNSET
+    support_radius: Annotated[
+        MaybePositive, says("Radius of the circle (m); if left out that of [support], or 1 if it has none.")
+    ] = UNSET
+
+
+class AskSwing(Table, frozen=True):
+    """Small oscillations of a hanging chain or rig after release (`revchain.swing`)."""
+
+    offset: Annotated[
+        Listed, says("Offset of each pin at the start (m), free end first, without the support unless it yields.")
+    ]
+    velocity: Annotated[
+        Listed | UnsetType, says("Velocity of each pin at the start (m/s), in the same order; at rest if left out.")
+    ] = UNSET
+    time: Annotated[OneOrMore, says("A time (s), a list of times, or {from, to, steps}.")] = Spread(
+        last=10.0, steps=201
+    )
+    count: Annotated[Count | UnsetType, says("Number of modes used, slowest first; all if left out.")] = UNSET
+
+
+class AskBranches(Table, frozen=True):
+    """The bifurcation diagram: all branches of steady shapes up to a speed (`revchain.branches`)."""
+
+    max_angular_speed: Annotated[MaybePositive, says("Largest speed (rad/s); or give min_conical_height.")] = UNSET
+    min_conical_height: Annotated[
+        MaybePositive, says("Smallest conical height (m); or give max_angular_speed.")
+    ] = UNSET
+    direction: Annotated[Literal[1, -1], says("Direction of rotation; only flywheels depend on it.")] = 1
+
+
+class AskExplain(Table, frozen=True):
+    """The method that finds the modes for a tolerance, and the cost of the others (`revchain.explain`)."""
+
+    count: Annotated[Count | Literal["all"] | UnsetType, says("Number of modes, slowest first.")] = UNSET
+    first: Annotated[Count | UnsetType, says("Number of the first mode; the slowest mode is 1.")] = UNSET
+    rtol: Annotated[MaybeNotNegative, says('Relative tolerance of the heights, such as "1 %".')] = UNSET
+
+
+class Ask(Table, frozen=True):
+    """Questions to answer; the modes if there are none."""
+
+    modes: Annotated[AskModes | UnsetType, says("Whirl speeds and mode shapes.")] = UNSET
+    shapes: Annotated[AskShapes | UnsetType, says("Steady shapes at any inclination.")] = UNSET
+    response: Annotated[AskResponse | UnsetType, says("Forced motion by a moving support.")] = UNSET
+    swing: Annotated[AskSwing | UnsetType, says("Free motion after release.")] = UNSET
+    branches: Annotated[AskBranches | UnsetType, says("All branches of steady shapes.")] = UNSET
+
+
+QUESTIONS: dict[str, type[Table]] = {
+    "modes": AskModes,
+    "shapes": AskShapes,
+    "response": AskResponse,
+    "swing": AskSwing,
+    "branches": AskBranches,
+}
+TABLES: dict[str, type[Table]] = {**QUESTIONS, "explain": AskExplain}
+
+
+_SIGNS: dict[Any, str] = {AnySign: "any", Listed: "any", OneOrMore: "any", Positive: "positive"}
+_SIGNS |= {NotNegative: "not negative", Pair: "not negative"}
+_SIGNS |= {kind | UnsetType: sign for kind, sign in _SIGNS.items()} | {OneOrMore | UnsetType: "positive"}  # of a speed
+
+
+@cache
+def number_fields(kind: type[Struct]) -> list[tuple[str, str, bool]]:
+    """Name of each key that is a number, with or without a unit, or several; its sign; and whether it is required."""
+    types = [(field, get_args(field.type)[0]) for field in fields_of(kind)]
+    return [(field.name, _SIGNS[of], field.required) for field, of in types if of in _SIGNS]
+
+
+Links = list[tuple[int, Link]]  # lowest first, each with its number in the file
+
+
+class Tables(Table, frozen=True):
+    """The keys of a scene file."""
+
+    schema_version: Annotated[Literal[2], says("Version of this format.")] = 2
+    title: Annotated[str, says("Title in one line.")] = ""
+    description: Annotated[str, says("Description of any length.")] = ""
+    gravity: Annotated[Positive, says("Acceleration of gravity (m/s^2).")] = STANDARD_GRAVITY
+    order: Annotated[Literal["free end first", "support first"], says("Order of the links.")] = "free end first"
+    links: Annotated[list[Link] | UnsetType, says("The links, in the given order.")] = UNSET
+    uniform_chain: Annotated[UniformChain | UnsetType, says("Equal links, instead of links.")] = UNSET
+    tapered_chain: Annotated[
+        TaperedChain | UnsetType, says("Links cut from a tapering cord, instead of links.")
+    ] = UNSET
+    cord: Annotated[Cord | UnsetType, says("A flexible cord, instead of links.")] = UNSET
+    support: Annotated[Support | UnsetType, says("Support of the chain; a firm point on the axis if left out.")] = UNSET
+    fluid: Annotated[Literal["still", "turning"], says("Motion of the fluid: at rest, or turning with the chain.")] = "still"
+    held: Annotated[Held | UnsetType, says("Data of a chain or cord that is held at both ends.")] = UNSET
+    ask: Annotated[Ask, says("Questions to answer.")] = Ask()
+
+    def _links(self) -> Links:
+        """The tables of the links, lowest first, with their numbers in the file."""
+        links = [] if isinstance(self.links, UnsetType) else list(enumerate(self.links))
+        return links[::-1] if self.order == "support first" else links
+
+    def _bodies(self) -> Links:
+        """The tables that are links of the system; a clamped one is part of the link above."""
+        return [(index, link) for index, link in self._links() if not link.clamped]
+
+    @property
+    def is_rigged(self) -> bool:
+        """Whether the scene has more than a chain that hangs from a firm point on the axis."""
+        links = [] if isinstance(self.links, UnsetType) else self.links
+        unlike = [link.standing or link.flywheel is not UNSET or link.displaced is not UNSET for link in links]
+        return self.support is not UNSET or any(unlike)
+
+    @property
+    def is_held(self) -> bool:
+        """Whether the lower end is also held."""
+        return self.held is not UNSET

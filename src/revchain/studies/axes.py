@@ -15,7 +15,7 @@ from msgspec import UNSET, Meta, UnsetType
 from numpy.typing import NDArray
 
 from ..scenes import parse
-from ..scenes.chain import Numbers
+from ..scenes.system import Numbers
 from ..scenes.tables import Link, Table, fields_of, says
 from ..systems.numbers import Floats
 from ..systems.units import SI

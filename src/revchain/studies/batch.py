@@ -12,8 +12,8 @@ from msgspec import UNSET, UnsetType, structs
 from numpy.typing import NDArray
 
 from ..questions.batch import conical_heights
-from ..scenes.ask import AskModes
-from ..scenes.chain import Numbers
+from ..scenes.tables import AskModes
+from ..scenes.system import Numbers
 from ..scenes.scene import Scene
 from ..systems.chain import Chain
 from ..systems.numbers import Floats

@@ -12,8 +12,8 @@ import numpy as np
 from msgspec import UNSET, UnsetType, convert
 from numpy.typing import NDArray
 
-from ..scenes.ask import DEFAULT_MODES, AskModes, Spread
-from ..scenes.chain import Numbers
+from ..scenes.tables import DEFAULT_MODES, AskModes, Spread
+from ..scenes.system import Numbers
 from ..scenes.scene import Scene
 from .axes import Axis, with_value
 from .batch import Links

@@ -11,9 +11,9 @@ from typing import Annotated, Any, Literal, Self
 from msgspec import UNSET, Meta, UnsetType, to_builtins
 
 from ..scenes import parse
-from ..scenes.chain import Numbers
+from ..scenes.system import Numbers
 from ..scenes.error import Problem, SceneError
-from ..scenes.places import joined
+from ..scenes.positions import joined
 from ..scenes.scene import Scene, json_schema, load_scene
 from ..scenes.tables import Table, says
 from ..systems.numbers import file_path, integer, text

@@ -19,31 +19,31 @@ class _Scanner:
 
     def __init__(self, text: str) -> None:
         self.rest = [(found[0], found.start()) for found in _TOKEN.finditer(text) if found[0][0] != "#"][::-1]
-        self.places: dict[str, int] = {}
+        self.positions: dict[str, int] = {}
 
     def next(self, skipped: str = "\n") -> tuple[str, int]:
-        """The next token, which stays the next one; empty at the end."""
+        """The next token, which is not read yet; empty at the end."""
         while self.rest and self.rest[-1][0] in skipped:
             self.rest.pop()
         return self.rest[-1] if self.rest else ("", 0)
 
     def key(self, ends: str) -> list[str]:
-        """The parts of a dotted key; the token after it is read, too."""
+        """Read a dotted key and the token after it; return the parts of the key."""
         parts: list[str] = []
         while (word := self.next()[0]) and self.rest.pop() and word not in ends:
             parts += [_unquoted(word)] if word[0] in "\"'" else [part for part in word.split(".") if part]
         return parts
 
     def entry(self, path: str, ends: str = ",]}") -> None:
-        """A key and its value."""
+        """Read a key and its value, and note where the key starts."""
         _, at = self.next()
         for part in self.key("=:"):
             path = joined(path, part)
-            self.places.setdefault(path, at)
+            self.positions.setdefault(path, at)
         self.value(path, ends)
 
     def value(self, path: str, ends: str = ",]}") -> None:
-        """A value at `path`, and all inside it."""
+        """Read the value of the key `path`, and note where each key and item inside it starts."""
         opens, number = self.next()[0], 0
         if opens not in ("[", "{"):
             while self.rest and self.rest[-1][0] not in ends + "\n":
@@ -54,13 +54,13 @@ class _Scanner:
             if opens == "{":
                 self.entry(path)
             else:
-                self.places[item := f"{path}[{number}]"] = token[1]
+                self.positions[item := f"{path}[{number}]"] = token[1]
                 self.value(item)
                 number += 1
         del self.rest[-1:]
 
     def document(self) -> None:
-        """A whole TOML file."""
+        """Read a whole TOML file, table by table, and note where each key starts."""
         table, counts = "", dict[str, int]()
         while (opens := self.next())[0]:
             if opens[0] != "[":
@@ -72,12 +72,12 @@ class _Scanner:
             table, parts = "", self.key("]")
             for nth, part in enumerate(parts, 1):
                 table = joined(table, part)
-                self.places.setdefault(table, opens[1])
+                self.positions.setdefault(table, opens[1])
                 if listed and nth == len(parts):
                     counts[table] = counts.get(table, 0) + 1
                 if table in counts:
                     table += f"[{counts[table] - 1}]"
-                self.places.setdefault(table, opens[1])
+                self.positions.setdefault(table, opens[1])
             if listed:
                 del self.rest[-1:]
 
@@ -98,23 +98,23 @@ def _unquoted(word: str) -> str:
 _LAST = re.compile(r"""(^|\.)("(\\.|[^"\\])*"|[^."[]*)$|\[\d+\]$""")
 
 
-def places_in(text: str, json: bool) -> Callable[[str], tuple[int, int]]:
+def positions_in(text: str, json: bool) -> Callable[[str], tuple[int, int]]:
     """A function from a key path to its line and column; for a missing key those of its table."""
     scanner = _Scanner(text)
     try:
         scanner.value("") if json else scanner.document()
     except (RecursionError, IndexError):
-        pass  # keys that could not be scanned get the places of the tables around them
-    places = {key.removeprefix("."): at for key, at in scanner.places.items()}
+        pass  # keys that could not be scanned get the positions of the tables around them
+    positions = {key.removeprefix("."): at for key, at in scanner.positions.items()}
     starts = [0, *(match.end() for match in re.finditer("\n", text))]
 
-    def place(key: str) -> tuple[int, int]:
+    def position(key: str) -> tuple[int, int]:
         key = re.sub(r' \(".*"\)$', "", key)
-        while key and key not in places:
+        while key and key not in positions:
             shorter = _LAST.sub("", key)
             key = "" if shorter == key else shorter
-        at = places.get(key, 0)
+        at = positions.get(key, 0)
         line = bisect_right(starts, at)
         return line, at - starts[line - 1] + 1
 
-    return place
+    return position
