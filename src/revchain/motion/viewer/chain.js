@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The figure of a chain from numbers: links as bars, bodies in the forms of their names, support, arm, mast, and a trail.
 import {
-  BoxGeometry, BufferGeometry, CylinderGeometry, Euler, Float32BufferAttribute, Group, LatheGeometry, Line, LineBasicMaterial, Mesh,
-  MeshStandardMaterial, Quaternion, SphereGeometry, TorusGeometry, Vector2, Vector3,
+  BoxGeometry, BufferGeometry, CylinderGeometry, Euler, Float32BufferAttribute, Group, LatheGeometry, Line,
+  LineBasicMaterial, Mesh, MeshStandardMaterial, Quaternion, SphereGeometry, TorusGeometry, Vector2, Vector3,
 } from "three";
 
 const THIN = 0.006, THICK = 0.014, BALL = 0.035;  // radii, over the height or the width of the whole
@@ -47,8 +47,8 @@ function bar(parent, from, to, radius, colour) {
   put(parent, "bar", colour, middle, [radius, length, radius], new Quaternion().setFromUnitVectors(UP, way.divideScalar(length)));
 }
 
-/** What links are drawn as by their names: function of {put, length, size, gyration, along}, in axes of the link whose y
- * points away from the pin it hangs from or stands on. `piece(form, colour, [x, y, z], [wide, high, deep], turned by)`. */
+/** What links are drawn as: functions of {piece, length, gyration, along, tall, ahead}, in axes of the link whose y points
+ * away from the pin it hangs from or stands on. `piece(form, colour, [x, y, z], [wide, high, deep], turned by)`. */
 const bodies = {
   bell({ piece, gyration, along }) {
     const wide = 1.35 * gyration, high = 2.2 * gyration;
@@ -56,18 +56,22 @@ const bodies = {
   },
   jar({ piece, length }) { piece("jar", WOOD, [0, 0, 0], [0.4 * length, length, 0.4 * length]); },
   person({ piece, length: tall }) {
-    for (const side of [-1, 1]) piece("bar", GREY.body, [0, 0.25 * tall, 0.06 * tall * side], [0.035 * tall, 0.5 * tall, 0.035 * tall]);
-    for (const side of [-1, 1]) piece("ball", GREY.body, [0, 0.64 * tall, 0.13 * tall * side], [0.03 * tall, 0.17 * tall, 0.03 * tall]);
-    piece("ball", RIDER, [0, 0.64 * tall, 0], [0.08 * tall, 0.19 * tall, 0.11 * tall]);
-    piece("ball", GREY.body, [0, 0.9 * tall, 0], [0.07 * tall, 0.09 * tall, 0.07 * tall]);
+    const part = (form, colour, y, z, scale) => piece(form, colour, [0, y * tall, z * tall], scale.map((x) => x * tall));
+    for (const side of [-1, 1]) {
+      part("bar", GREY.body, 0.25, 0.06 * side, [0.035, 0.5, 0.035]);
+      part("ball", GREY.body, 0.64, 0.13 * side, [0.03, 0.17, 0.03]);
+    }
+    part("ball", RIDER, 0.64, 0, [0.08, 0.19, 0.11]);
+    part("ball", GREY.body, 0.9, 0, [0.07, 0.09, 0.07]);
   },
   seat({ piece, along, tall }) {
     const s = 0.075 * tall;
-    piece("box", AHEAD, [0, along + 0.3 * s, 0], [s, 0.1 * s, 0.9 * s]);
-    piece("box", AHEAD, [0, along - 0.1 * s, -0.45 * s], [s, 0.9 * s, 0.08 * s]);
-    piece("ball", RIDER, [0, along - 0.2 * s, -0.1 * s], [0.3 * s, 0.5 * s, 0.25 * s]);
-    piece("ball", GREY.body, [0, along - 0.9 * s, -0.1 * s], [0.22 * s, 0.24 * s, 0.22 * s]);
-    piece("ball", GREY.body, [0, along + 0.25 * s, 0.2 * s], [0.26 * s, 0.16 * s, 0.4 * s]);
+    const part = (form, colour, y, z, scale) => piece(form, colour, [0, along + y * s, z * s], scale.map((x) => x * s));
+    part("box", AHEAD, 0.3, 0, [1, 0.1, 0.9]);
+    part("box", AHEAD, -0.1, -0.45, [1, 0.9, 0.08]);
+    part("ball", RIDER, -0.2, -0.1, [0.3, 0.5, 0.25]);
+    part("ball", GREY.body, -0.9, -0.1, [0.22, 0.24, 0.22]);
+    part("ball", GREY.body, 0.25, 0.2, [0.26, 0.16, 0.4]);
   },
   crate({ piece, along, tall }) { piece("box", WOOD, [0, along, 0], [0.1 * tall, 0.08 * tall, 0.1 * tall]); },
   hook({ piece, along, tall }) { piece("box", METAL, [0, along, 0], [0.035 * tall, 0.045 * tall, 0.025 * tall]); },
@@ -85,11 +89,11 @@ const bodies = {
   },
 };
 
-/** A link from its lower pin to its upper one, with its body. */
-function addLink(parent, link, lower, upper, { tall, ball, colour, others, odd }) {
+/** A link up to its pin `to` from the one it hangs from or stands on, with its body. */
+function addLink(parent, link, to, from, { tall, ball, colour, others, odd }) {
   const paint = (own) => others ? GREY.others : own;
-  const [from, to] = [upper, lower];  // the pin it hangs from or stands on first
-  const way = to.clone().sub(from), length = Math.max(way.length(), 1e-9), turn = new Quaternion().setFromUnitVectors(UP, way.divideScalar(length));
+  const way = to.clone().sub(from), length = Math.max(way.length(), 1e-9);
+  const turn = new Quaternion().setFromUnitVectors(UP, way.divideScalar(length));
   const at = (x, y, z) => new Vector3(x, y, z).applyQuaternion(turn).add(from);
   function piece(form, own, place, scale, tilt) {
     const way = tilt === undefined ? turn : turn.clone().multiply(new Quaternion().setFromEuler(tilt));
@@ -102,7 +106,7 @@ function addLink(parent, link, lower, upper, { tall, ball, colour, others, odd }
     put(parent, "ring", paint(colour), at(0, length / 2, 0), [wide, 1.15 * length, wide], twist);
     return;
   }
-  bar(parent, lower, upper, (link.stands ? THICK : THIN) * tall, paint(colour));
+  bar(parent, to, from, (link.stands ? THICK : THIN) * tall, paint(colour));
   if (bodies[link.form]) return bodies[link.form]({ piece, length, along, gyration, tall, ahead: link.ahead });
   if (link.size) {
     if (link.rod) bar(parent, at(0, along - link.rod * length, 0), at(0, along + link.rod * length, 0), 1.8 * THIN * tall, paint(colour));
@@ -129,7 +133,8 @@ function trailOf(radius, height, turns, colour) {
 export function chainFigure({ pins, links, arm, carriage, top, floor, colour, turns }) {
   const root = new Group(), turning = new Group(), points = pins.map(([x, y]) => new Vector3(x, y, 0));
   const tall = Math.max(top - floor, ...pins.map(([x]) => 2 * Math.abs(x))), support = points.at(-1);
-  const ball = tall * Math.min(BALL, Math.max(0.28 / links.length, 1.5 * THIN));
+  const heavy = links.reduce((sum, { size }) => sum + size ** 3, 0);  // the heaviest as one, the others as parts of it
+  const ball = tall * Math.min(BALL, Math.max(0.28 / heavy, 1.5 * THIN));
   const end = new Vector3(arm, 0, 0), axis = new Vector3(0, 0, 0), ride = arm > 0 && links.some(({ form }) => form === "seat");
   bar(root, new Vector3(0, floor, 0), new Vector3(0, top, 0), (ride ? 2.5 * THIN : THIN / 3) * tall, ride ? GREY.support : GREY.axis);
   for (let place = 0; place < (ride ? SEATS : 1); place++) {
