@@ -398,5 +398,5 @@ def test_plots(chain):
     assert swing.plot(kind="time", pins=[0, 4]).get_ylabel() == "distance from axis (m)"
     with pytest.raises(ValueError, match="kind must be"):
         swing.plot(kind="x")
-    with pytest.raises(ValueError, match="pins must be numbers"):
+    with pytest.raises(ValueError, match="pins must be among those of this result, 0, 1, .*, got 7"):
         swing.plot(kind="time", pins=[7])

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from ..plots.branches import words_of
 from ..plots.modes import MOST_SHAPES, Straight, floating, rows_of
+from ..plots.shapes import words_of
 from ..plots.style import MOST_PINS_AS_DOTS, thinned
 from ..results.branches import Branch, Branches
 from ..results.modes import Modes

@@ -15,7 +15,7 @@ from ..closed_forms.table import described
 from ..results.motions import Response
 from ..results.sheet import digits
 from ..systems.numbers import integer, listed, shown
-from .style import MOST_PINS_AS_DOTS, MOST_POINTS, WIDEST, axes_or_new, new_figure, plain, thinned
+from .style import AXIS, MOST_PINS_AS_DOTS, MOST_POINTS, WIDEST, SpeedUnit, axes_or_new, new_figure, plain, thinned
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -230,36 +230,26 @@ def beside_at_rest(system: System | None, ax: Axes | None, width: float, height:
     return axes
 
 
-def chosen(place: str, available: Whole, which: Iterable[int] | None) -> list[int]:
-    """Numbers of the modes to draw."""
+def rows_of(place: str, modes: Modes, which: Iterable[int] | None) -> Whole:
+    """Return the rows of the modes to draw; of a rig both directions of each number."""
+    available = modes.number
     if available.size == 0:
         raise ValueError(f"{place}: there are no modes")
     if which is None:
-        return [int(number) for number in available[:MOST_SHAPES]]
+        return np.arange(min(len(modes), MOST_SHAPES))
     numbers = [integer(place, "modes", mode) for mode in listed(place, "modes", which)]
     for mode in numbers:
         if not available.min() <= mode <= available.max():
             raise ValueError(f"{place}: mode must be from {available.min()} to {available.max()}, got {mode}")
     if not numbers:
         raise ValueError(f"{place}: modes names no mode")
-    return numbers
-
-
-def rows_of(place: str, modes: Modes, which: Iterable[int] | None) -> Whole:
-    """Places of the modes to draw in the arrays; of a rig both directions of each number."""
-    if which is None and len(modes):
-        return np.arange(min(len(modes), MOST_SHAPES))
-    numbers = chosen(place, modes.number, which)
-    return np.concatenate([np.flatnonzero(modes.number == number) for number in numbers])
+    return np.concatenate([np.flatnonzero(available == number) for number in numbers])
 
 
 @described(bound=True)
 def plot_modes(
-    found: Modes,
-    ax: Axes | None = None,
-    modes: Iterable[int] | None = None,
-    *,
-    carried: Response | None = None,
+    found: Modes, ax: Axes | None = None, modes: Iterable[int] | None = None, *, carried: Response | None = None,
+    speed: str | None = None,
 ) -> Axes:
     """Draw the system at rest and, beside it, the mode shapes, each along its own axis; rings mark the nodes.
 
@@ -267,6 +257,7 @@ def plot_modes(
 
     modes: Numbers of the modes to draw (for a rig, of both directions); the six slowest of this result if left out.
     carried: Response of the same system at one speed with all pins, drawn first, with its support on its circle.
+    speed: Unit of the speeds, as in `Branches.plot`. If left out, each speed is written in rad/s, in rpm and as a period.
     raises: If `modes` has a number that is not in this result, the result is empty, or `carried` is not such a
         response.
 
@@ -274,26 +265,23 @@ def plot_modes(
     >>> ax.get_ylabel()
     'depth below the support (m)'
     """
-    return _beside(found, ax, modes, carried)
-
-
-def _beside(modes: Modes, ax: Axes | None, which: Iterable[int] | None, carried: Response | None) -> Axes:
-    """The system at rest and, beside it, the response and the modes."""
-    place = "revchain.Modes.plot"
-    system = modes.system
+    place, system = "revchain.Modes.plot", found.system
+    units = [SpeedUnit(place, unit) for unit in (("rad/s", "rpm", "s") if speed is None else (speed,))]
     if carried is not None and not isinstance(carried, Response):
         raise TypeError(f"{place}: carried must be a revchain.Response, got {shown(carried)}")
     if carried is not None and (carried.system != system or carried.offset.shape != (system.size + 1,)):
         raise ValueError(f"{place}: carried must be the response of the same rig at one speed, of every pin")
-    rows = np.arange(0) if system._kind == "rig" and not len(modes) and which is None else rows_of(place, modes, which)
+    no_motion = system._kind == "rig" and not len(found) and modes is None
+    rows = np.arange(0) if no_motion else rows_of(place, found, modes)
     straight = Straight(system)
     labels = [straight.said]
     if carried is not None:
-        labels.append(_speed_label("carried round", float(carried.angular_speed)))
-    before, turning = len(labels), modes.has_momentum
+        labels.append(_speed_label("carried round", carried.angular_speed.item(), units))
+    before = len(labels)
     for row in rows:
-        way = ("\nforward" if modes.angular_speed[row] > 0 else "\nbackward") if turning else ""
-        labels.append(_speed_label(f"mode {modes.number[row]}{way}", float(modes.angular_speed[row])))
+        rate = float(found.angular_speed[row])
+        way = ("\nforward" if rate > 0 else "\nbackward") if found.has_momentum else ""
+        labels.append(_speed_label(f"mode {found.number[row]}{way}", rate, units))
     columns = len(labels) + (not len(rows))
     aside = max(0.0, straight.reach() + 1.1 - SPACING)  # so that the names do not reach the first shape
     ax = axes_or_new(ax, _width(labels, columns), 6.0)
@@ -305,10 +293,10 @@ def _beside(modes: Modes, ax: Axes | None, which: Iterable[int] | None, carried:
         straight.links(ax, ticks[1] + carried.offset / most, CARRIED)
         ax.plot([ticks[1], ticks[1] + carried.support_radius / most], [0.0, 0.0], **ARM)
     for row, at in zip(rows, ticks[before:], strict=True):
-        _draw_mode(ax, modes, straight, int(row), at)
+        _draw_mode(ax, found, straight, int(row), at)
     if not len(rows):
-        rate = digits(modes.other.growth_rate.max(initial=0.0), 4)
-        said = f"no steady\nmotion:\ngrows as\nexp({rate} t),\nt in s"
+        growth = digits(found.other.growth_rate.max(initial=0.0), 4)
+        said = f"no steady\nmotion:\ngrows as\nexp({growth} t),\nt in s"
         ax.text(ticks[-1] + SPACING, float(straight.level.mean()), said, ha="center", va="center")
     ax.set_xticks(ticks, labels, fontsize="small")
     ax.set_xlim(-SPACING / 2, aside + SPACING * (columns - 0.5))
@@ -327,9 +315,9 @@ def _width(labels: list[str], columns: int) -> float:
     return max(min(1.2 + COLUMN * columns, WIDEST), 0.9 + LETTER * (longest + 1) * columns)
 
 
-def _speed_label(name: str, speed: float) -> str:
-    units = {"rad/s": speed, "rpm": speed * 30 / np.pi, "s": 2 * np.pi / abs(speed)}
-    return "\n".join([name, *[f"{number:#.4g}".removesuffix(".") + f" {unit}" for unit, number in units.items()]])
+def _speed_label(name: str, speed: float, units: list[SpeedUnit]) -> str:
+    """Return the label of a mode: its name and its speed in each unit, in lines of their own."""
+    return "\n".join([name, *[unit.text(speed) for unit in units]])
 
 
 def _draw_mode(ax: Axes, modes: Modes, straight: Straight, row: int, axis: float) -> None:
@@ -352,21 +340,22 @@ def _draw_mode(ax: Axes, modes: Modes, straight: Straight, row: int, axis: float
         straight.supports(ax, axis)
 
 
-def plot_carried(found: Response, ax: Axes | None, pins: list[int]) -> Axes:
-    """The response at one speed as a shape, the support on its circle."""
+def plot_carried(found: Response, ax: Axes | None, pins: list[int], unit: SpeedUnit) -> Axes:
+    """Draw the response at one speed as a shape, with the support on its circle."""
     straight = Straight(found.system)
-    offset = dict(zip(np.atleast_1d(found.pins).tolist(), found.offset.reshape(-1).tolist(), strict=True))
+    across = np.full(straight.level.size, np.nan)
+    available = np.atleast_1d(found.pins)
+    drawn = np.isin(available, pins)
+    across[available[drawn]] = found.offset.reshape(-1)[drawn]
     ax = beside_at_rest(found.system, ax, 5.0, 6.0)
     straight.axis(ax, 0.0)
-    places = range(found.system.size + 1)
-    across = np.array([offset.get(pin, np.nan) if pin in pins else np.nan for pin in places])
-    if len(pins) == straight.level.size:
+    if len(pins) == across.size:
         straight.links(ax, across, CARRIED)
     else:
         ax.plot(across, straight.level, "o", color=CARRIED)
     ax.plot([0.0, found.support_radius], [0.0, 0.0], **ARM)
     straight.finish(ax, bodies=False)
-    ax.set_xlabel(f"offset from the axis (m) at {digits(found.angular_speed.item(), 4)} rad/s")
+    ax.set_xlabel(f"offset from the axis (m) at {unit.text(found.angular_speed.item())}")
     return ax
 
 
@@ -376,7 +365,7 @@ def _draw_support(support: Support, ax: Axes, straight: Straight, across: float)
     yields = bool(np.isfinite(support.stiffness))
     wall = -0.65 if support.radius and yields else -1.0  # the spring starts where the arm ends
     if support.radius:
-        ax.plot([-1.0, -1.0], [level.max(), level.min()], color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
+        ax.plot([-1.0, -1.0], [level.max(), level.min()], **AXIS)
         ax.plot([-1.0, wall if yields else across], [0.0, 0.0], **ARM)
     if yields:
         tall = np.ptp(level)
