@@ -16,10 +16,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from ..closed_forms.bell import BellAndClapper
-    from ..closed_forms.governor import GovernorMotion
-    from ..closed_forms.gyrostatic_string import GyrostaticString
-    from ..closed_forms.rope import SkippingRope, TortuousRope
-    from ..closed_forms.statics import FunicularPolygon
+    from ..closed_forms.motions import GovernorMotion, SkippingRope, TortuousRope
+    from ..closed_forms.strings import FunicularPolygon, GyrostaticString
     from ..results.diagrams import ForceDiagram
 
 BYTES = 64  # of a point of a curve
