@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
+import base64
 import html
 import os
 from collections.abc import Callable, Iterable
+from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -16,13 +18,27 @@ from ..systems.extras import require
 from ..systems.numbers import file_path, one_positive, shown
 from .film import Film
 from .frames import write_gif, write_mp4
-from .page import page_of, write_page
-from .solid import write_glb
-from .staging import Asked, staged
+from .solid import glb_of, write_glb
+from .staging import Choices, staged
 
 RATES = (0.1, 1000.0)  # frames in a second
 MOST_TURNS = 5000  # of a solid, which has four keys for each
 Progress = Callable[[int, int], None]
+
+
+def write_page(film: Film, path: Path, progress: Progress) -> None:
+    """Write the page of a film, which needs no other file and no network."""
+    path.write_text(page_of(film, progress), encoding="utf-8")
+
+
+def page_of(film: Film, progress: Progress) -> str:
+    """Return the page of a film: HTML that contains the .glb file and a viewer of it (three.js)."""
+    solid = base64.b64encode(glb_of(film, progress)).decode()
+    folder = files("revchain").joinpath("motion")
+    page, script = (folder.joinpath(name).read_text(encoding="utf-8") for name in ("viewer.html", "viewer.min.js"))
+    return page.replace("@script@", script).replace("@solid@", solid).replace("@title@", html.escape(film.system))
+
+
 WRITERS: dict[str, dict[str, Callable[[Film, Path, Progress], None]]] = {
     "animate": {".gif": write_gif, ".mp4": write_mp4, ".html": write_page},
     "to_glb": {".glb": write_glb},
@@ -98,7 +114,7 @@ def _film(
 ) -> Film:
     given = {"time_scale": time_scale, "duration": duration}
     numbers = {name: None if value is None else one_positive(place, name, value) for name, value in given.items()}
-    film = staged(result, Asked(place, figures, numbers["time_scale"], numbers["duration"], rate))
+    film = staged(result, Choices(place, figures, numbers["time_scale"], numbers["duration"], rate))
     turns = max(float(np.abs(figure.phase).max()) for figure in film.figures) / (2 * np.pi)
     if is_solid and turns > MOST_TURNS:
         raise ValueError(
