@@ -22,7 +22,7 @@ class Strike(NamedTuple):
 
     `strikes`: whether the clapper strikes. `side`: ``"leading"`` if the clapper has flown ahead of the rising bell
     (the bell rings right), ``"trailing"`` if it has fallen behind. `bell_angle`: angle of the bell past its lowest
-    place, rad. `relative_speed`: speed of the clapper in the bell, rad/s, positive towards the leading side. `time`:
+    position, rad. `relative_speed`: speed of the clapper in the bell, rad/s, positive towards the leading side. `time`:
     time after the start, s. The three numbers are NaN if the clapper does not strike.
 
     Examples
@@ -247,7 +247,7 @@ class _Pair:
         return self.bell_inertia + self.clapper_inertia + 2 * self.coupling * math.cos(angle)
 
     def together(self, angle: float, state: Floats) -> float:
-        """Angular acceleration of both as one body."""
+        """Return the angular acceleration of bell and clapper as one body."""
         return -self.moment(angle, float(state[0])) / self.inertia(angle)
 
     def moment(self, angle: float, theta: float) -> float:

@@ -27,8 +27,8 @@ __all__ = [
 class Solved(Result):
     """A result whose constructor computes it from numbers; two are equal if the numbers given are equal.
 
-    In a subclass `_solver` is the compiled class that computes the result, and `_optional` are the arguments that may be
-    None. The table has one row.
+    In a subclass `_solver` is the compiled class that computes the result, and `_optional` are the arguments that may
+    be None. The table has one row.
     """
 
     __slots__ = ()

@@ -47,7 +47,9 @@ class TransverseModes(Result, row="mode", title="TransverseModes: {_many}"):
         heading="speed",
         unit="rad/s",
     )
-    rpm: Field[Floats] = Field("Oscillations per minute, shape (n,).", lambda m: 60 * m.frequency, heading="speed", unit="rpm")
+    rpm: Field[Floats] = Field(
+        "Oscillations per minute, shape (n,).", lambda m: 60 * m.frequency, heading="speed", unit="rpm"
+    )
     frequency: Field[Floats] = Field(
         "Natural frequency, Hz, shape (n,).",
         lambda m: conical_pendulum.revolutions_per_second(m.conical_height, m.gravity),
@@ -90,7 +92,7 @@ class FunicularPolygon(Result):
 
     __slots__ = ()
     weight: Field[Floats] = Field("The weights from the first support to the last, shape (n,).")
-    place: Field[Floats] = Field("Places of supports and weights along the horizontal, shape (n + 2,).")
+    place: Field[Floats] = Field("Positions of supports and weights along the horizontal, shape (n + 2,).")
     height: Field[Floats] = Field("Heights of supports and weights, shape (n + 2,).")
     rise: Field[Floats] = Field(
         "Vertical component of the tension of each side, shape (n + 1,). In the force diagram the ray of a side runs "
@@ -182,7 +184,7 @@ def transverse_modes(
 
 
 def _string(name: str, weight: ArrayLike, place: ArrayLike) -> tuple[Floats, Floats]:
-    """Positive weights and places, each with one axis; the compiled module checks how many there are."""
+    """Return positive weights and their positions, each with one axis; the compiled module checks their numbers."""
     weights, at = positive(name, "weight", weight), floats(name, "place", place)
     for given, array in (("weight", weights), ("place", at)):
         if array.ndim != 1:

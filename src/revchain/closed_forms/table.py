@@ -58,7 +58,7 @@ POSITIVE = {
     "rear_mass": "Mass of the rear carriage",
     "rod": "Length of the rod of the upper plummet",
     "sag": "Largest distance of the rope from the axis",
-    "seconds_pendulum": "Length of the simple pendulum that beats seconds at the place",
+    "seconds_pendulum": "Length of the simple pendulum that beats seconds under this gravity",
     "slack": "Length of the rope less the span (give it if the two are nearly equal)",
     "span": "Distance between the ends",
     "speed": "Speed along the rim",

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -26,7 +26,7 @@ MAX_LINKS_SEEN = 12  # of which the plane is drawn end on
 
 
 def _two_axes(axes: tuple[Axes, Axes] | None, width: float, height: float) -> tuple[Axes, Axes]:
-    """Those of the caller, or new ones side by side on a figure of their own."""
+    """Return the two axes of the caller, or new axes side by side on a figure of their own."""
     if axes is None:
         left, right = new_figure(width, height).subplots(1, 2)
         return left, right
@@ -36,17 +36,12 @@ def _two_axes(axes: tuple[Axes, Axes] | None, width: float, height: float) -> tu
     return checked_axes(two[0]), checked_axes(two[1])
 
 
-def _letter(ax: Axes, text: str, x: float, z: float, right: bool = True, color: str = "black", below: bool = False) -> None:
+def _letter(
+    ax: Axes, text: str, x: float, z: float, right: bool = True, color: str = "black", below: bool = False
+) -> None:
     """Write a letter beside a point, to the right of it or to the left, above or below."""
-    ax.annotate(
-        f"${text}$",
-        (x, z),
-        xytext=(5 if right else -5, -3 if below else 3),
-        textcoords="offset points",
-        ha="left" if right else "right",
-        va="top" if below else "bottom",
-        color=color,
-    )
+    beside: dict[str, Any] = {"ha": "left" if right else "right", "va": "top" if below else "bottom", "color": color}
+    ax.annotate(f"${text}$", (x, z), (5 if right else -5, -3 if below else 3), textcoords="offset points", **beside)
 
 
 def _finish(ax: Axes, across: str, up: str, title: str) -> None:
@@ -58,9 +53,7 @@ def _finish(ax: Axes, across: str, up: str, title: str) -> None:
 
 
 @described(bound=True)
-def plot_force_diagram(
-    diagram: ForceDiagram, axes: tuple[Axes, Axes] | None = None
-) -> tuple[Axes, Axes]:
+def plot_force_diagram(diagram: ForceDiagram, axes: tuple[Axes, Axes] | None = None) -> tuple[Axes, Axes]:
     """Draw the shape and its force diagram side by side, with the letters of Fig. 3 of the paper.
 
     returns: Axes of the shape and of the forces. The weights lifted onto the line through N are drawn to a scale in
@@ -214,9 +207,7 @@ def plot_tortuous_rope(rope: TortuousRope, ax: Axes | None = None, *, half_waves
 
 
 @described(bound=True)
-def plot_governor(
-    motion: GovernorMotion, ax: Axes | None = None, *, duration: float | None = None
-) -> Axes:
+def plot_governor(motion: GovernorMotion, ax: Axes | None = None, *, duration: float | None = None) -> Axes:
     """Draw the angle against time, with its smallest and largest values.
 
     duration: Length of the time axis in s; two periods if left out.

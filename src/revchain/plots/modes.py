@@ -30,7 +30,7 @@ CARRIED = "C2"
 ARM: dict[str, Any] = {"color": "black", "linewidth": 2.5, "zorder": 3, "clip_on": False}
 SUPPORT: dict[str, Any] = {"color": "black", "markersize": 7.0, "zorder": 4, "clip_on": False}
 FOLD = 0.3  # sideways, between the links that hang and those that stand on them, at rest
-MOST_SHAPES = 6  # drawn unless asked: more do not stay legible side by side
+MOST_SHAPES = 6  # unless the caller chooses them: more are not legible side by side
 SPACING = 2.6  # between the axes of neighbouring shapes, each of which reaches from -1 to 1
 MOST_NAMES = 12
 NAME_WIDTH = 12  # letters in a line of a name
@@ -40,7 +40,7 @@ WHEEL = 0.6  # half the length of the bar of a flywheel
 
 
 class Straight:
-    """A system as it hangs straight: the places of its pins along the axis, and what the axis is called."""
+    """A system that hangs straight: the levels of its pins along the axis, and the drawing of its parts."""
 
     def __init__(self, system: System) -> None:
         self.system, self.base = system, system._base
@@ -56,31 +56,32 @@ class Straight:
 
     @property
     def said(self) -> str:
-        """What to write under the system at rest."""
+        """The text under the system at rest: the fluid, and an arm that is not drawn to scale."""
         fluid = f"\nin {self.system._fluid} fluid" if self.system._fluid else ""
         arm = "\narm not\nto scale" if self.system._support is not None and self.system._support.radius else ""
         return f"at rest{fluid}{arm}"
 
     def names(self) -> list[str]:
-        """Of the links, in short lines; none where they are many."""
+        """Return the names of the links, in short lines; none if there are many links."""
         names = getattr(self.base, "names", None)
         few = names is not None and len(names) <= MOST_NAMES and self.few
         return [plain(textwrap.fill(name, NAME_WIDTH)) for name in names or ()] if few else []
 
     def beside(self) -> Floats:
-        """Half the width of each link: of its flywheel."""
+        """Return how far each link reaches sideways: half the width of its flywheel, or 0."""
         if not self.system.has_momentum:
             return np.zeros(self.level.size - 1)
         return np.where(self.system._momentum(1.0) != 0, WHEEL, 0.0)
 
     def reach(self) -> float:
-        """To where the names reach, where columns are as wide as they are by default."""
+        """Return how far the names reach sideways if columns have their usual width."""
         longest = [max(map(len, name.split("\n"))) + 2 for name in self.names()]
-        return max((far + n * LETTER * SPACING / COLUMN for n, far in zip(longest, self.beside(), strict=False)), default=0.0)
+        letter = LETTER * SPACING / COLUMN
+        return max((far + n * letter for n, far in zip(longest, self.beside(), strict=False)), default=0.0)
 
     @property
     def height(self) -> Floats:
-        """Of each pin or place, above the support, or the lower end of what is held at both ends."""
+        """Height of each pin or point of a cord above the support, or above the lower end of a held system."""
         return self.level if self.upwards else -self.level
 
     def finish(self, ax: Axes, bodies: bool = True) -> None:
@@ -108,11 +109,11 @@ class Straight:
             ax.plot(at, self.level[0], marker="^", **SUPPORT)
 
     def links(self, ax: Axes, across: Floats, colour: str, label: str | None = None) -> None:
-        """The links, inverted ones drawn stout."""
-        kept = thinned(across) if across.size > MOST_POINTS else slice(None)
+        """Draw the links at these distances from the vertical; inverted ones are drawn stout."""
+        drawn = thinned(across) if across.size > MOST_POINTS else slice(None)
         marker = "o" if self.few else ""
         line: dict[str, Any] = {"color": colour, "linewidth": 1.6, "marker": marker, "markersize": 4.0, "zorder": 2}
-        ax.plot(across[kept], self.level[kept], label=label, **line)
+        ax.plot(across[drawn], self.level[drawn], label=label, **line)
         stout = np.flatnonzero(self.inverted)
         stout = stout[:: 1 + stout.size // MOST_POINTS]
         if stout.size:
@@ -121,7 +122,7 @@ class Straight:
             ax.plot(x, z, color=colour, linewidth=4.0, alpha=0.45, zorder=2)
 
     def at_rest(self, ax: Axes) -> None:
-        """The straight system: bodies as heavy as they are, wheels seen edge-on, and what holds it."""
+        """Draw the straight system: bodies sized by weight, wheels seen edge-on, and the support."""
         if self.system._is_cord:
             density = self.base.density
             where = (self.level[0] - self.level) if not self.system._is_held else self.level
@@ -147,19 +148,19 @@ class Straight:
             self.supports(ax, 0.0)
 
     def _folded(self, ax: Axes) -> Floats:
-        """Draw the line of the chain, beside itself where it turns back; the places of the links are returned."""
+        """Draw the line of the chain, beside itself where it turns back; return how far aside each link is."""
         stands, level, size = self.inverted, self.level, self.level.size - 1
         turns = np.flatnonzero(stands[1:] != stands[:-1]) + 1
         first, end = np.concatenate([[0], turns]), np.concatenate([turns, [size]])
-        places = min(FOLD, 1.0 / first.size) * np.arange(first.size)[::-1]
+        aside = min(FOLD, 1.0 / first.size) * np.arange(first.size)[::-1]
         path = np.stack([level[first], level[end]], 1).ravel()
-        ax.plot(np.repeat(places, 2), path, color=LINK, linewidth=1.6)
+        ax.plot(np.repeat(aside, 2), path, color=LINK, linewidth=1.6)
         up = stands[first]
-        ax.vlines(places[up], level[first][up], level[end][up], color=LINK, linewidth=4.0)
-        return np.repeat(places, end - first)
+        ax.vlines(aside[up], level[first][up], level[end][up], color=LINK, linewidth=4.0)
+        return np.repeat(aside, end - first)
 
     def _middles(self) -> Floats:
-        """Centres of gravity."""
+        """Return the level of the centre of gravity of each link."""
         along = (self.level[:-1] - self.level[1:]) / self.base.length  # +1 or -1
         middle: Floats = self.level[1:] + along * self.base.centroid
         return middle
@@ -181,16 +182,17 @@ class Straight:
             ax.hlines(middle[spun], across[spun] - WHEEL, across[spun] + WHEEL, color=colour, linewidth=4.0, zorder=3)
         for x, z, name, far in zip(across, middle, self.names(), self.beside(), strict=False):
             side = -1 if x < across.max() else 1  # to the left where links stand on the right
-            place: dict[str, Any] = {"ha": "left" if side > 0 else "right", "va": "center", "fontsize": "small"}
-            ax.annotate(name, (x + side * far, z), xytext=(9 * side, 0), textcoords="offset points", **place)
+            beside: dict[str, Any] = {"ha": "left" if side > 0 else "right", "va": "center", "fontsize": "small"}
+            ax.annotate(name, (x + side * far, z), xytext=(9 * side, 0), textcoords="offset points", **beside)
 
 
 def floating(system: System) -> NDArray[np.bool_]:
-    """Of each link: whether the fluid bears more than it weighs."""
+    """Return, for each link, whether the fluid that it displaces weighs more than the link."""
     base, displaced = system._base, getattr(system, "displaced", None)
     if displaced is None:
         return np.zeros(base.size, bool)
-    return np.broadcast_to(next(iter(displaced._given.values())), base.size) > np.broadcast_to(base._compiled.weight, base.size)
+    fluid, weight = next(iter(displaced._given.values())), base._compiled.weight
+    return np.broadcast_to(fluid, base.size) > np.broadcast_to(weight, base.size)
 
 
 @described(bound=True)
@@ -210,7 +212,8 @@ def plot_system(system: System, ax: Axes | None = None) -> Axes:
     straight.finish(ax)
     ax.set_xlim(-1.3, max(1.3, straight.reach()))
     if straight.few:
-        ax.set_xlabel("dots: centres of gravity (larger = heavier);\nrings: pins; bars: rods of equal inertia", fontsize="small")
+        said = "dots: centres of gravity (larger = heavier);\nrings: pins; bars: rods of equal inertia"
+        ax.set_xlabel(said, fontsize="small")
     ax.set_xticks([])
     if system._fluid:
         ax.set_facecolor(FLUID)
@@ -219,7 +222,7 @@ def plot_system(system: System, ax: Axes | None = None) -> Axes:
 
 
 def beside_at_rest(system: System | None, ax: Axes | None, width: float, height: float) -> Axes:
-    """The axes of the caller, or new ones: beside the system at rest where its links can be told apart."""
+    """Return the axes of the caller, or new axes, beside the system at rest if its links are few."""
     if ax is not None or system is None or not Straight(system).few:
         return axes_or_new(ax, width, height)
     straight = Straight(system)
@@ -257,7 +260,8 @@ def plot_modes(
 
     modes: Numbers of the modes to draw (for a rig, of both directions); the six slowest of this result if left out.
     carried: Response of the same system at one speed with all pins, drawn first, with its support on its circle.
-    speed: Unit of the speeds, as in `Branches.plot`. If left out, each speed is written in rad/s, in rpm and as a period.
+    speed: Unit of the speeds: ``"rad/s"``, ``"rpm"``, ``"Hz"`` (turns per second) or ``"s"`` (the period). If left out,
+        each speed is written in rad/s, in rpm and as a period.
     raises: If `modes` has a number that is not in this result, the result is empty, or `carried` is not such a
         response.
 
@@ -310,7 +314,7 @@ def plot_modes(
 
 
 def _width(labels: list[str], columns: int) -> float:
-    """Inches of a figure whose labels do not meet: no more than `WIDEST` where these are short."""
+    """Return the inches of a figure whose labels do not meet: at most `WIDEST` if they are short."""
     longest = max([len(line) for label in labels for line in label.splitlines()])
     return max(min(1.2 + COLUMN * columns, WIDEST), 0.9 + LETTER * (longest + 1) * columns)
 
@@ -330,9 +334,9 @@ def _draw_mode(ax: Axes, modes: Modes, straight: Straight, row: int, axis: float
     straight.links(ax, axis + shape, colour, f"mode {modes.number[row]}")
     nodes = modes.nodes[row]
     if nodes.size <= MOST_PINS_AS_DOTS and not straight.inverted.any():
-        places = nodes if system._is_held else straight.level[0] - nodes
+        levels = nodes if system._is_held else straight.level[0] - nodes
         rings: dict[str, Any] = {"markersize": 7.0, "markerfacecolor": "white", "markeredgecolor": "black", "zorder": 3}
-        ax.plot(np.full(nodes.size, axis), places, linestyle="none", marker="o", **rings)
+        ax.plot(np.full(nodes.size, axis), levels, linestyle="none", marker="o", **rings)
     if system._support is not None and np.isfinite(system._support.stiffness):
         ax.plot([axis, axis + shape[-1]], [0.0, 0.0], color="0.3", linewidth=1.0, zorder=3)
         ax.plot(axis + shape[-1], 0.0, marker="s", **{**SUPPORT, "markersize": 6.0})
@@ -360,7 +364,7 @@ def plot_carried(found: Response, ax: Axes | None, pins: list[int], unit: SpeedU
 
 
 def _draw_support(support: Support, ax: Axes, straight: Straight, across: float) -> None:
-    """What holds the uppermost pin: a firm point, a spring, an arm."""
+    """Draw the support of the uppermost pin: a firm point, a spring, an arm."""
     level = straight.level
     yields = bool(np.isfinite(support.stiffness))
     wall = -0.65 if support.radius and yields else -1.0  # the spring starts where the arm ends

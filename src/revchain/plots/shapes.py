@@ -147,7 +147,7 @@ def plot_branches(
 
 
 def _draw_branches(branches: Sequence[Branch], ax: Axes | None, quantity: str | None, speed: str, place: str) -> Axes:
-    """Draw a curve for each branch."""
+    """Draw a curve for each branch, and mark births and folds."""
     unit = SpeedUnit(place, speed)
     available = [name for name in QUANTITIES if not len(branches) or hasattr(branches[0], name)]
     if quantity is None:
@@ -183,7 +183,7 @@ def _draw_branches(branches: Sequence[Branch], ax: Axes | None, quantity: str | 
 
 
 def _mark_births(ax: Axes, births: list[tuple[float, str]]) -> None:
-    """Dotted lines at speeds where pairs are born, written above the frame, where they hide no loop however small."""
+    """Draw dotted lines at the speeds where pairs appear; the numbers are above the frame, where they hide no loop."""
     left, right = ax.get_xlim()
     last = -np.inf
     ticks: list[float] = []

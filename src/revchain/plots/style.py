@@ -81,7 +81,7 @@ def pins_among(place: str, pins: Iterable[int], available: Collection[int]) -> l
 
 
 def pin_name(pin: int) -> str:
-    """The label of the curve of a pin."""
+    """Return the label of the curve of a pin; pin 0 is the free end."""
     return f"pin {pin}" if pin else "free end"
 
 
@@ -130,7 +130,7 @@ def thinned(curve: Numbers) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
 
 
 def keep_room(ax: Axes, share: float = 0.35) -> None:
-    """Widen a drawing in true proportions, all but flat or all but straight down, until it can be read."""
+    """Widen a drawing in true proportions that is almost flat or almost vertical, until it can be read."""
     (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
     wide, tall = right - left, high - low
     if tall < share * wide:
