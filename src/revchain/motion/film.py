@@ -152,18 +152,9 @@ class Film:
                 return values
             return tuple(values[row] for row in rows) if isinstance(values, tuple) else values[rows]
 
-        figures = tuple(
-            replace(
-                each,
-                offset=few(each.offset)[:, pin],
-                height=few(each.height)[:, pin],
-                scale=few(each.scale),
-                phase=each.phase[rows],
-                speed=few(each.speed),
-                captions=few(each.captions),
-            )
-            for each in self.figures
-        )
+        of_frames = ("offset", "height", "scale", "phase", "speed", "captions")
+        cut = [replace(each, **{name: few(getattr(each, name)) for name in of_frames}) for each in self.figures]
+        figures = tuple(replace(each, offset=each.offset[:, pin], height=each.height[:, pin]) for each in cut)
         chart = self.chart
         if chart is not None:
             chart = replace(chart, x=tuple(x[rows] for x in chart.x), y=tuple(y[rows] for y in chart.y))

@@ -11,19 +11,20 @@ from typing import Any
 
 import numpy as np
 
-from ..plots.modes import MOST_SHAPES, Straight, floating, rows_of
+from ..plots.modes import MOST_SHAPES, Straight, floating, rows_of, speed_label
 from ..plots.shapes import words_of
-from ..plots.style import MOST_PINS_AS_DOTS, thinned
+from ..plots.style import MOST_PINS_AS_DOTS, SpeedUnit, thinned
 from ..results.base import Listed
 from ..results.branches import Branch, Branches
 from ..results.modes import Modes
 from ..results.motions import Response, Swing
 from ..results.shapes import SteadyShape, SteadyShapes
 from ..results.sheet import digits
-from ..systems.numbers import Floats, listed, place_of
+from ..systems.numbers import Floats, listed, one_positive, place_of
 from .film import Bodies, Chart, Complex, Figure, Film
 
 TURN = 2 * math.pi
+CAPTION_UNITS = [SpeedUnit("captions", unit) for unit in ("rad/s", "rpm")]
 CORD_POINTS = 101
 LONGEST, FOR_A_SWEEP = 10.0, 12.0  # seconds of film, unless the caller chooses
 SLOWEST_TURN, FASTEST_TURN = 4.0, 0.8  # seconds of film
@@ -37,10 +38,15 @@ class Choices:
     """What the caller chooses for a film: figures, time scale, length and frame rate."""
 
     place: str
-    figures: Iterable[int] | None
-    time_scale: float | None
-    duration: float | None
-    frames_per_second: float
+    frames_per_second: float = 25.0
+    figures: Iterable[int] | None = None
+    time_scale: float | None = None
+    duration: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("time_scale", "duration"):
+            if (value := getattr(self, name)) is not None:
+                object.__setattr__(self, name, one_positive(self.place, name, value))
 
     def only_one(self) -> None:
         """Refuse a choice of figures where the result is a single one."""
@@ -103,10 +109,9 @@ def _(modes: Modes, choices: Choices) -> Film:
 def _(found: SteadyShape | SteadyShapes, choices: Choices) -> Film:
     named: list[Turning] = []
     for label, shape in choices.among(found, "shape", first=1):
-        waves = f"{shape.half_waves} half wave{'s' * (shape.half_waves != 1)}"
         offset, height = _bent(shape)
         speed = shape.angular_speed * shape.direction
-        named.append((f"{label}\n{waves}".strip(), offset, height, speed, 1.0))
+        named.append((f"{label}\n{shape._waves}".strip(), offset, height, speed, 1.0))
     return _turning(found, named, choices)
 
 
@@ -129,24 +134,12 @@ def _turning(result: Any, named: list[Turning], choices: Choices) -> Film:
     if choices.time_scale is None and turns:
         scale = turns * slow * choices.frames_per_second / frames  # the slowest ends where it began
     time = scale * np.arange(frames) / choices.frames_per_second
-    figures = [
-        Figure(
-            label,
-            larger * offset[None] + 0j,
-            height[None],
-            np.array([larger]),
-            np.asarray(speed * time),
-            np.array([speed]),
-            (f"{label}\n{speed_words(speed)}",),
-        )
-        for label, offset, height, speed, larger in named
-    ]
+    figures = []
+    for label, offset, height, speed, larger in named:
+        scales, phase, caption = np.array([larger]), np.asarray(speed * time), speed_label(label, speed, CAPTION_UNITS)
+        drawn = larger * offset[None] + 0j
+        figures.append(Figure(label, drawn, height[None], scales, phase, np.array([speed]), (caption,)))
     return _film(result, figures, choices, scale)
-
-
-def speed_words(speed: float) -> str:
-    """Return a speed in rad/s and, on a second line, in rpm."""
-    return f"{digits(speed, 4)} rad/s\n{digits(speed * 30 / np.pi, 4)} rpm"
 
 
 # ---- what changes along a branch, or with the speed
@@ -242,11 +235,10 @@ def _swept(
         at = np.linspace(0.0, each.way[-1], frames)
         speed, scale = (np.interp(at, each.way, values) for values in (each.speed, each.scale))
         turned = np.cumsum((speed[1:] + speed[:-1]) / 2) * time_scale / choices.frames_per_second
-        captions = [f"{label}\n{speed_words(now)}".strip() for now in speed.tolist()]
+        captions = [speed_label(label, now, CAPTION_UNITS).strip() for now in speed.tolist()]
         if np.ptp(each.scale):
-            captions = [
-                f"{text}\noffsets {larger:.3g}:1" for text, larger in zip(captions, scale.tolist(), strict=True)
-            ]
+            larger = [f"\noffsets {by:.3g}:1" for by in scale.tolist()]
+            captions = list(map(str.__add__, captions, larger))
         offset = _between(at, each.way, each.offset)
         height = _between(at, each.way, each.height)
         figures.append(Figure(label, offset, height, scale, np.concatenate([[0.0], turned]), speed, tuple(captions)))

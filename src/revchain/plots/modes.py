@@ -280,12 +280,12 @@ def plot_modes(
     straight = Straight(system)
     labels = [straight.said]
     if carried is not None:
-        labels.append(_speed_label("carried round", carried.angular_speed.item(), units))
+        labels.append(speed_label("carried round", carried.angular_speed.item(), units))
     before = len(labels)
     for row in rows:
         rate = float(found.angular_speed[row])
         way = ("\nforward" if rate > 0 else "\nbackward") if found.has_momentum else ""
-        labels.append(_speed_label(f"mode {found.number[row]}{way}", rate, units))
+        labels.append(speed_label(f"mode {found.number[row]}{way}", rate, units))
     columns = len(labels) + (not len(rows))
     aside = max(0.0, straight.reach() + 1.1 - SPACING)  # so that the names do not reach the first shape
     ax = axes_or_new(ax, _width(labels, columns), 6.0)
@@ -319,7 +319,7 @@ def _width(labels: list[str], columns: int) -> float:
     return max(min(1.2 + COLUMN * columns, WIDEST), 0.9 + LETTER * (longest + 1) * columns)
 
 
-def _speed_label(name: str, speed: float, units: list[SpeedUnit]) -> str:
+def speed_label(name: str, speed: float, units: list[SpeedUnit]) -> str:
     """Return the label of a mode: its name and its speed in each unit, in lines of their own."""
     return "\n".join([name, *[unit.text(speed) for unit in units]])
 

@@ -60,4 +60,4 @@ ALL = ONE | SEVERAL
 
 
 def film(result, figures=None, time_scale=None, duration=None, frames_per_second=25.0):
-    return staged(result, Choices("place", figures, time_scale, duration, frames_per_second))
+    return staged(result, Choices("place", frames_per_second, figures, time_scale, duration))
