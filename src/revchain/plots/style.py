@@ -75,8 +75,10 @@ def pins_among(place: str, pins: Iterable[int], available: Collection[int]) -> l
     numbers = [integer(place, "pins", pin) for pin in listed(place, "pins", pins)]
     for number in numbers:
         if number not in available:
-            known = ", ".join(map(str, available)) if len(available) < 10 else f"{min(available)} to {max(available)}"
-            raise ValueError(f"{place}: pins must be among those of this result, {known}, got {number}")
+            known = f"numbers from {min(available)} to {max(available)}"
+            if len(available) <= max(available) - min(available):
+                known = f"{', '.join(map(str, list(available)[:9]))}{', ...' * (len(available) > 9)}, those of this result"
+            raise ValueError(f"{place}: pins must be {known}, got {number}")
     return numbers
 
 
