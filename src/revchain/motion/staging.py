@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from ..plots.modes import MOST_SHAPES, Straight, floating, rows_of, speed_label
+from ..plots.modes import MOST_SHAPES, Straight, floating, rows_of
 from ..plots.shapes import words_of
-from ..plots.style import MOST_PINS_AS_DOTS, SpeedUnit, thinned
+from ..plots.style import CAPTION_UNITS, MOST_PINS_AS_DOTS, thinned, with_speeds
 from ..results.base import Listed
 from ..results.branches import Branch, Branches
 from ..results.modes import Modes
@@ -24,7 +24,6 @@ from ..systems.numbers import Floats, listed, one_positive, place_of
 from .film import Bodies, Chart, Complex, Figure, Film
 
 TURN = 2 * math.pi
-CAPTION_UNITS = [SpeedUnit("captions", unit) for unit in ("rad/s", "rpm")]
 CORD_POINTS = 101
 LONGEST, FOR_A_SWEEP = 10.0, 12.0  # seconds of film, unless the caller chooses
 SLOWEST_TURN, FASTEST_TURN = 4.0, 0.8  # seconds of film
@@ -136,9 +135,10 @@ def _turning(result: Any, named: list[Turning], choices: Choices) -> Film:
     time = scale * np.arange(frames) / choices.frames_per_second
     figures = []
     for label, offset, height, speed, larger in named:
-        scales, phase, caption = np.array([larger]), np.asarray(speed * time), speed_label(label, speed, CAPTION_UNITS)
+        scales, phase = np.array([larger]), np.asarray(speed * time)
+        captions = with_speeds([label], [speed], CAPTION_UNITS)
         drawn = larger * offset[None] + 0j
-        figures.append(Figure(label, drawn, height[None], scales, phase, np.array([speed]), (caption,)))
+        figures.append(Figure(label, drawn, height[None], scales, phase, np.array([speed]), tuple(captions)))
     return _film(result, figures, choices, scale)
 
 
@@ -235,7 +235,7 @@ def _swept(
         at = np.linspace(0.0, each.way[-1], frames)
         speed, scale = (np.interp(at, each.way, values) for values in (each.speed, each.scale))
         turned = np.cumsum((speed[1:] + speed[:-1]) / 2) * time_scale / choices.frames_per_second
-        captions = [speed_label(label, now, CAPTION_UNITS).strip() for now in speed.tolist()]
+        captions = [text.strip() for text in with_speeds([label] * frames, speed.tolist(), CAPTION_UNITS)]
         if np.ptp(each.scale):
             larger = [f"\noffsets {by:.3g}:1" for by in scale.tolist()]
             captions = list(map(str.__add__, captions, larger))

@@ -15,7 +15,10 @@ from ..closed_forms.table import described
 from ..results.motions import Response
 from ..results.sheet import digits
 from ..systems.numbers import integer, listed, shown
-from .style import AXIS, MOST_PINS_AS_DOTS, MOST_POINTS, WIDEST, SpeedUnit, axes_or_new, new_figure, plain, thinned
+from .style import (
+    ALL_BUT_HERTZ, AXIS, MOST_PINS_AS_DOTS, MOST_POINTS, WIDEST, SpeedUnit, axes_or_new, new_figure, plain, thinned,
+    with_speeds,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -270,7 +273,7 @@ def plot_modes(
     'depth below the support (m)'
     """
     place, system = "revchain.Modes.plot", found.system
-    units = [SpeedUnit(place, unit) for unit in (("rad/s", "rpm", "s") if speed is None else (speed,))]
+    units = ALL_BUT_HERTZ if speed is None else [SpeedUnit(place, speed)]
     if carried is not None and not isinstance(carried, Response):
         raise TypeError(f"{place}: carried must be a revchain.Response, got {shown(carried)}")
     if carried is not None and (carried.system != system or carried.offset.shape != (system.size + 1,)):
@@ -278,14 +281,13 @@ def plot_modes(
     no_motion = system._kind == "rig" and not len(found) and modes is None
     rows = np.arange(0) if no_motion else rows_of(place, found, modes)
     straight = Straight(system)
-    labels = [straight.said]
-    if carried is not None:
-        labels.append(speed_label("carried round", carried.angular_speed.item(), units))
-    before = len(labels)
+    names, rates = ([], []) if carried is None else (["carried round"], [carried.angular_speed.item()])
+    before = 1 + len(names)
     for row in rows:
-        rate = float(found.angular_speed[row])
-        way = ("\nforward" if rate > 0 else "\nbackward") if found.has_momentum else ""
-        labels.append(speed_label(f"mode {found.number[row]}{way}", rate, units))
+        rates.append(float(found.angular_speed[row]))
+        way = ("\nforward" if rates[-1] > 0 else "\nbackward") if found.has_momentum else ""
+        names.append(f"mode {found.number[row]}{way}")
+    labels = [straight.said, *with_speeds(names, rates, units)]
     columns = len(labels) + (not len(rows))
     aside = max(0.0, straight.reach() + 1.1 - SPACING)  # so that the names do not reach the first shape
     ax = axes_or_new(ax, _width(labels, columns), 6.0)
@@ -317,11 +319,6 @@ def _width(labels: list[str], columns: int) -> float:
     """Return the inches of a figure whose labels do not meet: at most `WIDEST` if they are short."""
     longest = max([len(line) for label in labels for line in label.splitlines()])
     return max(min(1.2 + COLUMN * columns, WIDEST), 0.9 + LETTER * (longest + 1) * columns)
-
-
-def speed_label(name: str, speed: float, units: list[SpeedUnit]) -> str:
-    """Return the label of a mode: its name and its speed in each unit, in lines of their own."""
-    return "\n".join([name, *[unit.text(speed) for unit in units]])
 
 
 def _draw_mode(ax: Axes, modes: Modes, straight: Straight, row: int, axis: float) -> None:

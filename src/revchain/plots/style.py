@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..results.sheet import digits
 from ..systems.extras import require
 from ..systems.numbers import Numbers, integer, listed, shown, word
 
@@ -67,7 +66,16 @@ class SpeedUnit:
     def text(self, speed: float) -> str:
         """A speed with its unit, such as ``36.99 rpm``; a period without the sign of its rotation."""
         number = self.of(speed)
-        return f"{digits(abs(number) if self.unit == 's' else number, 4)} {self.unit}"
+        return f"{abs(number) if self.unit == 's' else number:#.4g}".removesuffix(".") + f" {self.unit}"
+
+
+CAPTION_UNITS = [SpeedUnit("captions", unit) for unit in ("rad/s", "rpm")]
+ALL_BUT_HERTZ = [*CAPTION_UNITS, SpeedUnit("captions", "s")]
+
+
+def with_speeds(names: Iterable[str], speeds: Iterable[float], units: list[SpeedUnit]) -> list[str]:
+    """Return labels with a name and, on lines of their own, a speed in each unit."""
+    return ["\n".join([name, *[unit.text(at) for unit in units]]) for name, at in zip(names, speeds, strict=True)]
 
 
 def pins_among(place: str, pins: Iterable[int], available: Collection[int]) -> list[int]:
@@ -77,7 +85,8 @@ def pins_among(place: str, pins: Iterable[int], available: Collection[int]) -> l
         if number not in available:
             known = f"numbers from {min(available)} to {max(available)}"
             if len(available) <= max(available) - min(available):
-                known = f"{', '.join(map(str, list(available)[:9]))}{', ...' * (len(available) > 9)}, those of this result"
+                some = ", ".join(map(str, list(available)[:9])) + ", ..." * (len(available) > 9)
+                known = f"{some}, those of this result"
             raise ValueError(f"{place}: pins must be {known}, got {number}")
     return numbers
 
