@@ -93,15 +93,15 @@ if _TYPE_CHECKING:
     from .closed_forms import two_links as two_links
     from .closed_forms.bell import BellAndClapper as BellAndClapper
     from .closed_forms.bell import bell_and_clapper as bell_and_clapper
-    from .closed_forms.buffer import BufferImpact as BufferImpact
-    from .closed_forms.governor import GovernorMotion as GovernorMotion
-    from .closed_forms.gyrostatic_string import GyrostaticString as GyrostaticString
-    from .closed_forms.rope import SkippingRope as SkippingRope
-    from .closed_forms.rope import TortuousRope as TortuousRope
-    from .closed_forms.statics import FunicularPolygon as FunicularPolygon
-    from .closed_forms.statics import TransverseModes as TransverseModes
-    from .closed_forms.statics import funicular_polygon as funicular_polygon
-    from .closed_forms.statics import transverse_modes as transverse_modes
+    from .closed_forms.motions import BufferImpact as BufferImpact
+    from .closed_forms.motions import GovernorMotion as GovernorMotion
+    from .closed_forms.strings import GyrostaticString as GyrostaticString
+    from .closed_forms.motions import SkippingRope as SkippingRope
+    from .closed_forms.motions import TortuousRope as TortuousRope
+    from .closed_forms.strings import FunicularPolygon as FunicularPolygon
+    from .closed_forms.strings import TransverseModes as TransverseModes
+    from .closed_forms.strings import funicular_polygon as funicular_polygon
+    from .closed_forms.strings import transverse_modes as transverse_modes
     from .exchange.write import to_mjcf as to_mjcf
     from .exchange.read import from_mjcf as from_mjcf
     from .exchange.read import from_urdf as from_urdf
@@ -124,15 +124,15 @@ _CLOSED_FORMS = "conical_pendulum elliptic hoop plummet two_links".split()
 _LATER = dict.fromkeys(_CLOSED_FORMS, "closed_forms") | {
     "BellAndClapper": "closed_forms.bell",
     "bell_and_clapper": "closed_forms.bell",
-    "BufferImpact": "closed_forms.buffer",
-    "GovernorMotion": "closed_forms.governor",
-    "GyrostaticString": "closed_forms.gyrostatic_string",
-    "SkippingRope": "closed_forms.rope",
-    "TortuousRope": "closed_forms.rope",
-    "FunicularPolygon": "closed_forms.statics",
-    "TransverseModes": "closed_forms.statics",
-    "funicular_polygon": "closed_forms.statics",
-    "transverse_modes": "closed_forms.statics",
+    "BufferImpact": "closed_forms.motions",
+    "GovernorMotion": "closed_forms.motions",
+    "GyrostaticString": "closed_forms.strings",
+    "SkippingRope": "closed_forms.motions",
+    "TortuousRope": "closed_forms.motions",
+    "FunicularPolygon": "closed_forms.strings",
+    "TransverseModes": "closed_forms.strings",
+    "funicular_polygon": "closed_forms.strings",
+    "transverse_modes": "closed_forms.strings",
     "cmake_prefix": "cli",
     "load": "results.storage",
     "to_mjcf": "exchange.write",

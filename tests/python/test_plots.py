@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 
 import revchain as rc
 from revchain.plots.modes import SPACING
+from revchain.plots.style import SPEED_UNITS
 
 RODS = rc.modes(rc.Chain.uniform_rods(120, length=0.36), count=8)
 
@@ -170,3 +171,91 @@ def test_governor_that_never_returns_asks_for_a_duration():
         SWING.plot(duration=-1.0)
     with pytest.raises(ValueError, match="half_waves must be positive"):
         TORTUOUS.plot(half_waves=0.0)
+
+
+UNITS = {
+    "rad/s": lambda speed: speed,
+    "rpm": lambda speed: speed * 30 / np.pi,
+    "Hz": lambda speed: speed / (2 * np.pi),
+    "s": lambda speed: 2 * np.pi / speed,
+}
+LABELS = {"rad/s": "speed (rad/s)", "rpm": "speed (rpm)", "Hz": "frequency (Hz)", "s": "period (s)"}
+THREE = rc.Chain(mass=[1.0, 1.0, 1.0], length=1.0)
+TOP = rc.Rig(rc.Chain(mass=1.0, length=1.0), flywheels=rc.Flywheel(momentum=0.2))
+STRING = rc.GyrostaticString(weight=9.80665, length=1.0, tension=100.0, momentum=1.0)
+
+
+def test_each_unit_is_tested():
+    assert SPEED_UNITS.keys() == UNITS.keys() == LABELS.keys()
+
+
+@pytest.mark.parametrize("unit", UNITS)
+def test_axes_of_speeds(unit):
+    in_unit, branches = UNITS[unit], rc.branches(THREE, max_angular_speed=14.0)
+    axes = branches.plot(speed=unit)
+    assert axes.get_xlabel() == LABELS[unit]
+    for branch in branches:
+        points = np.column_stack([in_unit(branch.angular_speed), np.degrees(branch.lowest_inclination)])
+        drawn = [line.get_xydata() for line in axes.lines if len(line.get_xdata()) == len(points)]
+        assert any(np.allclose(points, line, rtol=1e-14) for line in drawn)
+    fold = next(branch for branch in branches if branch.mode is None)
+    (above,) = axes.child_axes
+    assert above.get_xticks()[0] == pytest.approx(in_unit(fold.angular_speed[fold.folds].min()), rel=1e-14)
+    assert branches[0].plot(speed=unit).get_xlabel() == LABELS[unit]
+
+    speeds = np.linspace(1.0, 9.0, 50)
+    axes = rc.response(THREE, angular_speed=speeds).plot(pins=[0], speed=unit)
+    assert axes.get_xlabel() == LABELS[unit] and clipped(axes) == []
+    np.testing.assert_allclose(axes.lines[0].get_xdata(), in_unit(speeds), rtol=1e-14)
+    marked = [line.get_xdata()[0] for line in axes.lines if line.get_linestyle() == "-."]
+    np.testing.assert_allclose(marked, in_unit(rc.modes(THREE).angular_speed), rtol=1e-14)
+    axes = STRING.plot(speed=unit)
+    assert axes.get_ylabel() == LABELS[unit]
+    wave = in_unit(STRING.angular_speeds(np.linspace(0.0, np.pi, 200)[1:]).forward)
+    np.testing.assert_allclose(axes.lines[0].get_ydata(), wave, rtol=1e-14)
+
+
+@pytest.mark.parametrize("unit", UNITS)
+def test_labels_with_speeds(unit):
+    said = f"{UNITS[unit](4.0):#.4g} {unit}"
+    shapes = rc.steady_shapes(THREE, angular_speed=4.0)
+    assert shapes.plot(speed=unit).get_legend().get_title().get_text() == f"at {said}"
+    assert shapes[0].plot(speed=unit).get_legend().get_texts()[0].get_text() == f"1 half wave\n{said}"
+    carried = rc.response(THREE, angular_speed=4.0)
+    assert carried.plot(speed=unit).get_xlabel() == f"offset from the axis (m) at {said}"
+    rope = rc.SkippingRope(span=2.0, length=3.0, angular_speed=4.0)
+    assert rope.plot(speed=unit).get_legend().get_texts()[0].get_text() == said
+    modes = rc.modes(THREE)
+    expected = [f"mode {k + 1}\n{UNITS[unit](modes.angular_speed[k]):#.4g} {unit}" for k in range(3)]
+    axes = modes.plot(speed=unit, carried=carried)
+    assert texts(axes) == ["at rest", f"carried round\n{said}", *expected] and clipped(axes) == []
+
+
+def test_modes_without_a_unit_say_three():
+    modes = rc.modes(TOP)
+    assert modes.angular_speed.min() < 0  # the period of a backward mode is positive
+    for text, speed in zip(texts(modes.plot())[1:], modes.angular_speed, strict=True):
+        numbers = [f"{speed:#.4g} rad/s", f"{speed * 30 / np.pi:#.4g} rpm", f"{2 * np.pi / abs(speed):#.4g} s"]
+        assert text.splitlines()[2:] == numbers
+
+
+def test_periods_of_both_directions_are_apart():
+    speeds = np.linspace(-12.0, 12.0, 200)
+    line = rc.response(TOP, angular_speed=speeds).plot(pins=[0], speed="s").lines[0].get_xydata()
+    assert line[0, 0] == pytest.approx(-2 * np.pi / 12) and line[-1, 0] == pytest.approx(2 * np.pi / 12)
+    assert len(line) == 201 and not np.isfinite(line[100]).any()  # the curve breaks at rest
+
+
+PLOTS_WITH_SPEEDS = [
+    RODS, rc.branch(THREE, 1, max_angular_speed=5.0), rc.branches(THREE, max_angular_speed=5.0), STRING,
+    rc.steady_shapes(THREE, angular_speed=4.0), rc.steady_shapes(THREE, angular_speed=4.0)[0],
+    rc.response(THREE, angular_speed=[1.0, 2.0]), rc.SkippingRope(span=2.0, length=3.0),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("thing", PLOTS_WITH_SPEEDS, ids=lambda thing: type(thing).__name__)
+@pytest.mark.parametrize("wrong", ["RPM", "turns", "", 1, ("rpm",)])
+def test_other_units_are_refused(thing, wrong):
+    with pytest.raises(ValueError, match=rf"revchain.{type(thing).__name__}.plot: speed must be one of rad/s, rpm, Hz, s, got"):
+        thing.plot(speed=wrong)
+    assert "speed : str, optional\n    Unit of the speeds" in type(thing).plot.__doc__

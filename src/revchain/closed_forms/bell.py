@@ -4,16 +4,16 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from .. import _core
 from ..results.base import Field, Result
-from ..results.sheet import Column, Sheet, speed_columns
 from ..systems.chain import Chain, compiled
 from ..systems.extras import require
-from ..systems.numbers import STANDARD_GRAVITY, Floats, one_positive, real, shown
+from ..systems.numbers import STANDARD_GRAVITY, Floats, Whole, one_positive, real, shown
 from .table import described
 
 
@@ -22,7 +22,7 @@ class Strike(NamedTuple):
 
     `strikes`: whether the clapper strikes. `side`: ``"leading"`` if the clapper has flown ahead of the rising bell
     (the bell rings right), ``"trailing"`` if it has fallen behind. `bell_angle`: angle of the bell past its lowest
-    place, rad. `relative_speed`: speed of the clapper in the bell, rad/s, positive towards the leading side. `time`:
+    position, rad. `relative_speed`: speed of the clapper in the bell, rad/s, positive towards the leading side. `time`:
     time after the start, s. The three numbers are NaN if the clapper does not strike.
 
     Examples
@@ -41,7 +41,9 @@ class Strike(NamedTuple):
     time: float
 
 
-class BellAndClapper(Result):
+class BellAndClapper(
+    Result, row="mode", title="BellAndClapper: one piece where mismatch is 0, here {mismatch:.4g}"
+):
     """The two modes of a bell and its clapper, and how far they are from swinging as one piece; see `bell_and_clapper`.
 
     Examples
@@ -57,31 +59,44 @@ class BellAndClapper(Result):
 
     __slots__ = ()
     system: Field[Chain] = Field("Two links: the clapper, and above it the bell.")
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.")
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", fact=True)
+    mode: Field[Whole] = Field("Numbers of the modes, the slower first.", lambda b: np.arange(1, 3), heading="mode")
     angular_speed: Field[Floats] = Field(
         "Speed of each mode, rad/s, shape (2,).",
         lambda b: _core.conical_pendulum_angular_speed(np.asarray(b.conical_height), np.asarray(b.gravity)),
+        heading="speed",
+        unit="rad/s",
+    )
+    rpm: Field[Floats] = Field(
+        "Revolutions per minute, shape (2,).", lambda b: b.angular_speed * (30 / math.pi), heading="speed", unit="rpm"
     )
     conical_height: Field[Floats] = Field(
         "Conical height of the slower mode, in which both lean the same way, and of the faster mode, in which they lean "
         "opposite ways, m, shape (2,).",
+        heading="height",
+        unit="m",
     )
     inclination_ratio: Field[Floats] = Field(
         "Inclination of the clapper divided by that of the bell in each mode, shape (2,). If the first is 1, both swing "
         "as one piece in the slower mode and the bell is silent. In the faster mode they never swing as one piece.",
+        heading="inclination: clapper / bell",
     )
     silent_height: Field[float] = Field(
         "Conical height of the slower mode if both swing as one piece, m: the pendulum length of the clapper plus the "
         "joint.",
+        fact=True,
     )
-    mismatch: Field[float] = Field("``h1 - (m + 1) l1 - m (a2 - l2)``, m: 0 if both swing as one piece.")
+    mismatch: Field[float] = Field(
+        "``h1 - (m + 1) l1 - m (a2 - l2)``, m: 0 if both swing as one piece.", fact=True
+    )
     present: Field[dict[str, float]] = Field(
         "The data: ``clapper_weight``, ``clapper_centroid``, ``clapper_radius_of_gyration``, ``bell_weight``, "
         "``joint`` (from the axle of the bell to the pin of the clapper), ``bell_centroid``, "
         "``bell_radius_of_gyration``.",
+        fact=True,
     )
     derivative: Field[dict[str, float]] = Field(
-        "Derivative of the first inclination ratio with respect to each datum, the others constant."
+        "Derivative of the first inclination ratio with respect to each datum, the others constant.", fact=True
     )
 
     @described()
@@ -151,20 +166,7 @@ class BellAndClapper(Result):
         if from_angle is not None and not 0 < from_angle <= math.pi:
             raise ValueError(f"{place}: amplitude must be between 0 and pi, got {shown(from_angle)}")
         require("scipy", "fit", "the first strike of a clapper")
-        from .strike import first_strike
-
-        return Strike(*first_strike(self.present, gap, from_angle, self.gravity))
-
-    def _sheet(self, brief: bool = False) -> Sheet:
-        columns = [
-            Column("mode", np.arange(1, 3), "mode"),
-            *speed_columns(self.angular_speed),
-            Column("conical_height", self.conical_height, "height (m)"),
-            Column("inclination_ratio", self.inclination_ratio, "inclination: clapper / bell"),
-        ]
-        names = ("gravity", "silent_height", "mismatch", "present", "derivative")
-        heading = f"BellAndClapper: one piece where mismatch is 0, here {self.mismatch:.4g}"
-        return Sheet("mode", heading, columns, {name: getattr(self, name) for name in names})
+        return _first_strike(self.present, gap, from_angle, self.gravity)
 
 
 def _clearance(place: str, clearance: float) -> float:
@@ -199,3 +201,118 @@ def bell_and_clapper(chain: Chain, *, gravity: float = STANDARD_GRAVITY) -> Bell
     found |= {"mismatch": mismatch, "present": dict(zip(_core.BELL_DATA, present, strict=True))}
     found["derivative"] = dict(zip(_core.BELL_DATA, derivative, strict=True))
     return BellAndClapper._made(None, system=chain, gravity=one_positive(place, "gravity", gravity), **found)
+
+
+# ---- the plane motion up to the first blow, integrated by SciPy
+
+_NEAR = 1e-4  # rad: distance from the balance at which a full circle begins
+
+
+class _Pair:
+    """Bell and clapper: angles theta and psi to the downward vertical; forces in weights, times in sqrt(m)."""
+
+    def __init__(self, data: dict[str, float]) -> None:
+        clapper, bell, self.joint = data["clapper_weight"], data["bell_weight"], data["joint"]
+        h1, h2 = data["clapper_centroid"], data["bell_centroid"]
+        self.clapper_inertia = clapper * (h1 * h1 + data["clapper_radius_of_gyration"] ** 2)
+        self.bell_inertia = bell * (h2 * h2 + data["bell_radius_of_gyration"] ** 2) + clapper * self.joint**2
+        self.coupling = clapper * self.joint * h1
+        self.clapper_moment, self.bell_moment = clapper * h1, bell * h2 + clapper * self.joint
+
+    def free(self, _: float, state: Floats) -> Floats:
+        """Rates of theta, psi and their speeds by Lagrange's equations, for a clapper in free flight."""
+        theta, psi, spin, swing = state
+        cosine, sine = self.coupling * math.cos(psi - theta), self.coupling * math.sin(psi - theta)
+        of_bell = sine * swing * swing - self.bell_moment * math.sin(theta)
+        of_clapper = -sine * spin * spin - self.clapper_moment * math.sin(psi)
+        determinant = self.bell_inertia * self.clapper_inertia - cosine * cosine
+        return np.array([
+            spin,
+            swing,
+            (self.clapper_inertia * of_bell - cosine * of_clapper) / determinant,
+            (self.bell_inertia * of_clapper - cosine * of_bell) / determinant,
+        ])
+
+    def resting(self, angle: float) -> Callable[[float, Floats], Floats]:
+        """Rates while the clapper rests at this angle in the bell."""
+
+        def rates(_: float, state: Floats) -> Floats:
+            turn = self.together(angle, state)
+            return np.array([state[2], state[3], turn, turn])
+
+        return rates
+
+    def inertia(self, angle: float) -> float:
+        """Moment of inertia of both about the axle while the clapper rests at this angle in the bell."""
+        return self.bell_inertia + self.clapper_inertia + 2 * self.coupling * math.cos(angle)
+
+    def together(self, angle: float, state: Floats) -> float:
+        """Return the angular acceleration of bell and clapper as one body."""
+        return -self.moment(angle, float(state[0])) / self.inertia(angle)
+
+    def moment(self, angle: float, theta: float) -> float:
+        """Moment of gravity about the axle on both as one body; positive if it drives the bell to smaller angles."""
+        return self.bell_moment * math.sin(theta) + self.clapper_moment * math.sin(theta + angle)
+
+    def push(self, angle: float, state: Floats) -> float:
+        """Moment of the side of the bell on a clapper that rests on it; positive towards larger angles."""
+        turn, (theta, _, spin, _) = self.together(angle, state), state
+        inertia = self.clapper_inertia + self.coupling * math.cos(angle)
+        weight = self.clapper_moment * math.sin(theta + angle)
+        return float(inertia * turn + self.coupling * math.sin(angle) * spin**2 + weight)
+
+    def balance(self, angle: float) -> float:
+        """Angle of the bell, mouth up, at which both as one body are in balance."""
+        from scipy.optimize import brentq
+
+        return float(brentq(lambda theta: self.moment(angle, theta), math.pi / 2, 3 * math.pi / 2, xtol=1e-15))
+
+
+def _event(function: Callable[..., float], direction: float) -> Any:
+    """An event that ends the integration when the function passes 0 in the given direction."""
+    event: Any = function
+    event.terminal, event.direction = True, direction
+    return event
+
+
+def _first_strike(data: dict[str, float], clearance: float, amplitude: float | None, gravity: float) -> Strike:
+    """Integrate the motion up to the first blow; the bell falls from a positive angle."""
+    from scipy.integrate import solve_ivp
+
+    pair = _Pair(data)
+    side = 1.0 if amplitude is None else -1.0  # where the clapper rests at first, in units of the clearance
+    if amplitude is None:
+        theta = pair.balance(clearance) - _NEAR
+        slope = -(pair.bell_moment * math.cos(theta) + pair.clapper_moment * math.cos(theta + clearance))
+        spin = -_NEAR * math.sqrt(slope / pair.inertia(clearance))
+        state = np.array([theta, theta + clearance, spin, spin])
+    elif amplitude > clearance:
+        state = np.array([amplitude, amplitude - clearance, 0.0, 0.0])
+    else:
+        side, state = 0.0, np.array([amplitude, 0.0, 0.0, 0.0])
+    precise: dict[str, Any] = {"method": "DOP853", "rtol": 1e-11, "atol": 1e-12, "max_step": 0.2}
+    end, time = 1e3, 0.0
+
+    turns = _event(lambda at, state: state[2] if at > 1e-3 else -1.0, 1.0)  # the bell, after it has fallen
+    while True:
+        if side:
+            angle = side * clearance
+            lifts = _event(lambda _, state, angle=angle: math.copysign(1, angle) * pair.push(angle, state), 1.0)
+            if lifts(0.0, state) < 0:
+                found = solve_ivp(pair.resting(angle), (time, end), state, events=[lifts, turns], **precise)
+                time, state = found.t[-1], found.y[:, -1]
+                if not found.t_events[0].size:
+                    break
+        touch = [_event(lambda _, state, at=at: state[1] - state[0] - at * clearance, at) for at in (-1.0, 1.0)]
+        found = solve_ivp(pair.free, (time, end), state, events=[*touch, turns], **precise)
+        time, state = found.t[-1], found.y[:, -1]
+        struck = -1.0 if found.t_events[0].size else 1.0 if found.t_events[1].size else 0.0
+        if not struck:
+            break
+        per_second = math.sqrt(gravity)
+        speed = -(state[3] - state[2]) * per_second
+        if struck == side and abs(speed) < 1e-6 * per_second:
+            continue
+        side_struck = "leading" if struck < 0 else "trailing"
+        return Strike(True, side_struck, -float(state[0]), float(speed), float(time / per_second))
+    return Strike(False, "", math.nan, math.nan, math.nan)

@@ -58,7 +58,7 @@ POSITIVE = {
     "rear_mass": "Mass of the rear carriage",
     "rod": "Length of the rod of the upper plummet",
     "sag": "Largest distance of the rope from the axis",
-    "seconds_pendulum": "Length of the simple pendulum that beats seconds at the place",
+    "seconds_pendulum": "Length of the simple pendulum that beats seconds under this gravity",
     "slack": "Length of the rope less the span (give it if the two are nearly equal)",
     "span": "Distance between the ends",
     "speed": "Speed along the rim",
@@ -82,9 +82,7 @@ ANY = {
     "amplitude": "Angle in rad",
     "angle": "Angle in rad to the downward vertical at time 0",
     "angle_rate": "Rate of the angle in rad/s at time 0",
-    "axes": "Axes to draw in; a new figure if left out",
     "axial_inertia": "Moment of inertia about the line of the link, divided by that about the hinge; 0 to 1",
-    "ax": "Axes to draw in; a new figure if left out",
     "clearance": 'Angle of the clapper in the bell from the middle to contact, below pi/2 rad, or a text such as "25 deg"',
     "complementary_modulus": "Complementary modulus ``sqrt(1 - modulus**2)``, from 0 to 1",
     "first_height": "Height of the first support",
@@ -97,6 +95,11 @@ ANY = {
     "upper_centroid": "Distance of the centre of gravity of the upper link below the support",
     "weight_ratio": "Lower weight divided by upper weight",
     "x": "Distance",
+}
+PICTURES = {  # arguments of the methods that draw
+    "ax": "Axes to draw in; a new figure if left out",
+    "axes": "Axes to draw in; a new figure if left out",
+    "speed": 'Unit of the speeds: ``"rad/s"``, ``"rpm"``, ``"Hz"`` (turns per second) or ``"s"`` (the period)',
 }
 _RANGES = {", positive.": POSITIVE, ", not negative.": NOT_NEGATIVE, ".": ANY}
 _TYPES = {
@@ -193,7 +196,8 @@ def described(
         summary, prose, texts, examples = _read(thing.__doc__, {*parameters, "returns", "raises", "notes"})
         sections = [summary, *prose]
         if parameters:
-            each = [f"{name} : {_type(one)}\n    {_text(name, texts)}" for name, one in parameters.items()]
+            known = PICTURES | texts if bound else texts
+            each = [f"{name} : {_type(one)}\n    {_text(name, known)}" for name, one in parameters.items()]
             sections.append(_section("Parameters", "\n".join(each)))
         result = "None" if inspect.isclass(thing) else inspect.signature(thing).return_annotation
         if result != "None":
@@ -204,6 +208,8 @@ def described(
         if computed:
             broadcast = any(one.annotation == "ArrayLike" for one in parameters.values())
             refused.insert(0, f"If a number is out of its range or not finite{_BROADCAST if broadcast else ''}.")
+        if bound and "speed" in parameters:
+            refused.append("If `speed` is not one of the units.")
         raises = "ValueError\n    " + "\n    ".join(refused) if refused else ""
         if bound:
             raises += "\n" * bool(refused) + _NEEDS_MATPLOTLIB

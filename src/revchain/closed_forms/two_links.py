@@ -20,8 +20,7 @@ from numpy.typing import ArrayLike
 
 from .. import _core
 from ..results.base import Field, Result
-from ..results.sheet import Column, Sheet
-from ..systems.numbers import Floats
+from ..systems.numbers import Floats, Whole
 from .table import FloatOrArray, closed_form
 
 __all__ = [
@@ -33,7 +32,7 @@ __all__ = [
 ]
 
 
-class PairShape(Result):
+class PairShape(Result, row="link", title="PairShape: {_waves}"):
     """A steady shape of two links, the lower one first; returned by the functions of this module.
 
     Examples
@@ -47,22 +46,22 @@ class PairShape(Result):
     """
 
     __slots__ = ()
-    inclination: Field[Floats] = Field("Inclination of each link to the vertical, rad, shape (2,).")
+    link: Field[Whole] = Field("Numbers of the links, the lower one first.", lambda s: np.arange(2), heading="link")
+    inclination: Field[Floats] = Field(
+        "Inclination of each link to the vertical, rad, shape (2,).", heading="inclination", unit="rad"
+    )
     offset: Field[Floats] = Field(
         "Distance from the axis of the lower plummet (for a link, its centre of oscillation) and the joint, shape (2,).",
+        heading="from the axis",
     )
-    tension: Field[Floats] = Field("Tension above each link, divided by the whole weight, shape (2,).")
-    half_waves: Field[int] = Field("Sign changes of the offsets, plus one.")
+    tension: Field[Floats] = Field(
+        "Tension above each link, divided by the whole weight, shape (2,).", heading="tension"
+    )
+    half_waves: Field[int] = Field("Sign changes of the offsets, plus one.", fact=True)
 
-    def _sheet(self, brief: bool = False) -> Sheet:
-        columns = [
-            Column("link", np.arange(2), "link"),
-            Column("inclination", self.inclination, "inclination (°)", shown=np.degrees(self.inclination)),
-            Column("offset", self.offset, "from the axis"),
-            Column("tension", self.tension, "tension"),
-        ]
-        heading = f"PairShape: {self.half_waves} half wave{'s' * (self.half_waves != 1)}"
-        return Sheet("link", heading, columns, {"half_waves": self.half_waves})
+    @property
+    def _waves(self) -> str:
+        return f"{self.half_waves} half wave{'s' * (self.half_waves != 1)}"
 
 
 class SwungLink(NamedTuple):

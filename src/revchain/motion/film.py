@@ -39,12 +39,12 @@ class Figure:
         return turned
 
     def heights(self, frame: int) -> Floats:
-        """Heights of the pins in one frame, in metres."""
+        """Return the heights of the pins in one frame, in metres."""
         row: Floats = self.height[0 if len(self.height) == 1 else frame]
         return row
 
     def caption(self, frame: int) -> str:
-        """The text above the picture in one frame."""
+        """Return the text above the figure in one frame."""
         return self.captions[0 if len(self.captions) == 1 else frame]
 
 
@@ -79,7 +79,7 @@ class Chart:
 
 @dataclass(frozen=True)
 class Film:
-    """Figures side by side, each about its own axis."""
+    """Figures side by side, each about its own axis, with all that a file of the film says."""
 
     system: str
     gravity: float
@@ -102,7 +102,7 @@ class Film:
 
     @property
     def is_rigid(self) -> bool:
-        """Whether all figures only turn."""
+        """Whether every figure only turns, at a constant speed."""
         return all(figure.is_rigid for figure in self.figures)
 
     @property
@@ -152,18 +152,9 @@ class Film:
                 return values
             return tuple(values[row] for row in rows) if isinstance(values, tuple) else values[rows]
 
-        figures = tuple(
-            replace(
-                each,
-                offset=few(each.offset)[:, pin],
-                height=few(each.height)[:, pin],
-                scale=few(each.scale),
-                phase=each.phase[rows],
-                speed=few(each.speed),
-                captions=few(each.captions),
-            )
-            for each in self.figures
-        )
+        of_frames = ("offset", "height", "scale", "phase", "speed", "captions")
+        cut = [replace(each, **{name: few(getattr(each, name)) for name in of_frames}) for each in self.figures]
+        figures = tuple(replace(each, offset=each.offset[:, pin], height=each.height[:, pin]) for each in cut)
         chart = self.chart
         if chart is not None:
             chart = replace(chart, x=tuple(x[rows] for x in chart.x), y=tuple(y[rows] for y in chart.y))
@@ -181,7 +172,7 @@ class Film:
 
 
 def side_by_side(widths: Floats) -> Floats:
-    """Positions of the axes, the first at 0."""
+    """Return the positions of the axes of figures of these widths, the first at 0."""
     middles = np.cumsum(widths) - widths / 2
     return np.asarray(middles - middles[0])
 

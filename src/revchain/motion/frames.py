@@ -26,7 +26,7 @@ Progress = Callable[[int, int], None]
 
 
 class Drawing:
-    """A film on a canvas."""
+    """A film drawn on a canvas of matplotlib: a background, and artists that move in each frame."""
 
     def __init__(self, film: Film) -> None:
         self.film = film = film.thinned(film.frames, MOST_PINS)
@@ -100,14 +100,14 @@ class Drawing:
             at, low * np.cos(TILT) - 1.15 * deep - 0.02 * (high - low), "", ha="center", va="top", fontsize=8
         )
 
-        def place(frame: int) -> None:
+        def move(frame: int) -> None:
             offset, height = figure.in_space(frame), figure.heights(frame)
             links.set_data(*seen(offset, height, at))
             ends = [-1, 0] if film.is_held else [-1]
             held = np.array([part for end in ends for part in (0.0, offset[end], np.nan)])
             arms.set_data(*seen(held, np.repeat(height[ends], 3), at))
 
-        self._move(arms, place)
+        self._move(arms, move)
         self._move(links, lambda frame: None)
         if film.stout.any():
             self._move(stout, lambda frame: stout.set_data(*_pieces(links, film.stout)))
@@ -160,11 +160,11 @@ class Drawing:
         for end, marker in kinds:
             mark = self.ax.plot([], [], marker=marker, color="black", markersize=7.0, zorder=5)[0]
 
-            def place(frame: int, end: int = end, mark: Any = mark) -> None:
+            def move(frame: int, end: int = end, mark: Any = mark) -> None:
                 x, y = links.get_data()
                 mark.set_data([x[end]], [y[end]])
 
-            self._move(mark, place)
+            self._move(mark, move)
 
     def _chart(self, ax: Any) -> None:
         chart = self.film.chart
@@ -173,10 +173,10 @@ class Drawing:
             ax.plot(*line, color=f"C{nth % 10}", linewidth=1.3)
             dot = ax.plot([], [], "o", color=f"C{nth % 10}", markersize=7.0)[0]
 
-            def place(frame: int, dot: Any = dot, x: Floats = x, y: Floats = y) -> None:
+            def move(frame: int, dot: Any = dot, x: Floats = x, y: Floats = y) -> None:
                 dot.set_data([x[frame]], [y[frame]])
 
-            self._move(dot, place)
+            self._move(dot, move)
         ax.set_yscale("log" if chart.is_logarithmic else "linear")
         ax.set_xlabel(chart.x_label, fontsize=9)
         ax.set_ylabel(chart.y_label, fontsize=9)
@@ -185,7 +185,7 @@ class Drawing:
             ax.spines[side].set_visible(False)
 
     def frames(self, progress: Progress) -> Iterator[Any]:
-        """Each as an array of pixels, red, green, blue."""
+        """Draw the frames one by one, each as an array of pixels in red, green and blue."""
         for frame in range(self.film.frames):
             self.canvas.restore_region(self.background)
             for artist, update in self.moving:
@@ -196,20 +196,20 @@ class Drawing:
 
 
 def seen(offset: Complex | Floats, height: Any, across: float) -> tuple[Floats, Floats]:
-    """Where points of space are in the picture: seen from the side, a little from above."""
+    """Return where points of space are in the picture, seen from the side and a little from above."""
     point = np.asarray(offset, complex)
     return across + point.real, np.asarray(height) * np.cos(TILT) + point.imag * np.sin(TILT)
 
 
 def _along(line: Any, link: Any, share: Floats) -> tuple[Floats, Floats]:
-    """Places on links, from their upper pins."""
+    """Return points on links in the picture, at a share of their length below their upper pins."""
     x, y = line.get_data()
     down = x[link] - x[link + 1], y[link] - y[link + 1]
     return x[link + 1] + share * down[0], y[link + 1] + share * down[1]
 
 
 def _pieces(line: Any, which: Any) -> tuple[Floats, Floats]:
-    """Some links, each by itself."""
+    """Return the lines of some links, with gaps between them."""
     x, y = line.get_data()
     links = np.flatnonzero(which)
     none = np.full(links.size, np.nan)
@@ -218,7 +218,7 @@ def _pieces(line: Any, which: Any) -> tuple[Floats, Floats]:
 
 
 def write_gif(film: Film, path: Path, progress: Progress) -> None:
-    """An endless loop."""
+    """Write a .gif file that plays in an endless loop."""
     image = require("PIL.Image", "animate", "a .gif film")
     drawing = Drawing(film)
     pictures = [image.fromarray(pixels) for pixels in drawing.frames(progress)]
@@ -230,7 +230,7 @@ def write_gif(film: Film, path: Path, progress: Progress) -> None:
 
 
 def _palette(figures: int) -> list[int]:
-    """What is drawn, in tints from full to white."""
+    """Return the colours of a film for a GIF, each in tints from full to white."""
     to_rgb = require("matplotlib.colors", "animate", "a .gif film").to_rgb
     names = ["black", LINK, "0.7", *(f"C{k}" for k in {*range(min(figures, 10)), 0, 3})]
     pure = np.array([to_rgb(name) for name in names])[:, None]
@@ -239,7 +239,7 @@ def _palette(figures: int) -> list[int]:
 
 
 def write_mp4(film: Film, path: Path, progress: Progress) -> None:
-    """H.264, by ffmpeg."""
+    """Write an .mp4 file in H.264, by ffmpeg."""
     ffmpeg = require("imageio_ffmpeg", "animate", "a .mp4 film").get_ffmpeg_exe()
     drawing = Drawing(film)
     size = "x".join(map(str, drawing.canvas.get_width_height()))

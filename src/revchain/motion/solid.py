@@ -105,7 +105,7 @@ class _Solid:
         return self._once(colour, make)
 
     def _form(self, kind: str) -> dict[str, Any]:
-        """Accessors of a cylinder or a ball of radius 1 and height 1."""
+        """Return the accessors of a cylinder or a ball of radius 1 and height 1."""
         points, normals, faces = _cylinder() if kind == "cylinder" else _ball()
         attributes = {
             "POSITION": self._once((kind, 0), lambda: self._array(points, "VEC3", ends=True, target=VERTICES)),
@@ -115,7 +115,7 @@ class _Solid:
         return {"attributes": attributes, "indices": indices}
 
     def _mesh(self, kind: str, colour: str) -> int:
-        """A cylinder or a ball of one colour."""
+        """Return the number of the mesh of a cylinder or a ball of one colour."""
 
         def make() -> int:
             return self._put("meshes", name=kind, primitives=[self._form(kind) | {"material": self._material(colour)}])
@@ -166,7 +166,7 @@ class _Solid:
                 self._bar("arm", turning, on_axis, points[:, end], 1.3 * thin, GREYS["support"])
 
     def _turn(self, figure: Figure, node: int, angles: Floats, whole: Film) -> None:
-        """Add the rotation about the axis as a channel."""
+        """Add the rotation of a figure about its axis as a channel of the animation."""
         if not angles.any():
             return
         seconds = _times(whole)
@@ -270,13 +270,13 @@ def _turned_to(way: Floats) -> Floats:
 
 
 def _cylinder() -> Surface:
-    """A closed cylinder of radius 1 and height 1."""
+    """Return the surface of a closed cylinder of radius 1 and height 1."""
     rim = [[0, 0.5, 0, 1], [1, 0.5, 0, 1], [1, 0.5, 1, 0], [1, -0.5, 1, 0], [1, -0.5, 0, -1], [0, -0.5, 0, -1]]
     return _revolved(np.array(rim, float), np.array([0, 2, 4]))
 
 
 def _ball() -> Surface:
-    """A ball of radius 1."""
+    """Return the surface of a ball of radius 1."""
     down = np.linspace(0, np.pi, ROWS + 1)
     return _revolved(np.column_stack([np.sin(down), np.cos(down)] * 2), np.arange(ROWS))
 

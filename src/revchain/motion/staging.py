@@ -11,54 +11,66 @@ from typing import Any
 
 import numpy as np
 
-from ..plots.branches import words_of
 from ..plots.modes import MOST_SHAPES, Straight, floating, rows_of
-from ..plots.style import MOST_PINS_AS_DOTS, thinned
+from ..plots.shapes import words_of
+from ..plots.style import CAPTION_UNITS, MOST_PINS_AS_DOTS, thinned, with_speeds
+from ..results.base import Listed
 from ..results.branches import Branch, Branches
 from ..results.modes import Modes
 from ..results.motions import Response, Swing
 from ..results.shapes import SteadyShape, SteadyShapes
 from ..results.sheet import digits
-from ..systems.numbers import Floats, listed, place_of
+from ..systems.numbers import Floats, listed, one_positive, place_of
 from .film import Bodies, Chart, Complex, Figure, Film
 
 TURN = 2 * math.pi
-PLACES = 101  # of a cord
-LONGEST, FOR_A_SWEEP = 10.0, 12.0  # seconds of film, unless asked
+CORD_POINTS = 101
+LONGEST, FOR_A_SWEEP = 10.0, 12.0  # seconds of film, unless the caller chooses
 SLOWEST_TURN, FASTEST_TURN = 4.0, 0.8  # seconds of film
 MOST_FRAMES = 20_000
-MOST_STAGES = 150  # of a branch that are asked for
+MOST_STAGES = 150  # points of a branch whose shapes are computed
 Turning = tuple[str, Any, Floats, float, float]  # label, offsets, heights, speed, and what offsets are multiplied by
 
 
 @dataclass(frozen=True)
-class Asked:
-    """The caller's choices for a film."""
+class Choices:
+    """What the caller chooses for a film: figures, time scale, length and frame rate."""
 
     place: str
-    figures: Iterable[int] | None
-    time_scale: float | None
-    duration: float | None
-    frames_per_second: float
+    frames_per_second: float = 25.0
+    figures: Iterable[int] | None = None
+    time_scale: float | None = None
+    duration: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("time_scale", "duration"):
+            if (value := getattr(self, name)) is not None:
+                object.__setattr__(self, name, one_positive(self.place, name, value))
 
     def only_one(self) -> None:
         """Refuse a choice of figures where the result is a single one."""
         if self.figures is not None:
             raise ValueError(f"{self.place}: figures is for several modes, shapes or branches; leave it out here")
 
-    def among(self, count: int, what: str) -> list[int]:
-        """Indices of the chosen items of a list."""
+    def among(self, found: Any, what: str, first: int = 0) -> list[tuple[str, Any]]:
+        """The chosen items of a list, each with a label that counts from `first`; a single result without a label."""
+        if not isinstance(found, Listed):
+            self.only_one()
+            return [("", found)]
+        count = len(found)
         if not count:
             raise ValueError(f"{self.place}: there is no {what} to draw")
         if self.figures is None:
-            return list(range(min(count, MOST_SHAPES)))
-        chosen = [place_of(self.place, "figures", each, count) for each in listed(self.place, "figures", self.figures)]
+            chosen = list(range(min(count, MOST_SHAPES)))
+        else:
+            numbers = listed(self.place, "figures", self.figures)
+            chosen = [place_of(self.place, "figures", each, count) for each in numbers]
         if not chosen:
             raise ValueError(f"{self.place}: figures names no {what}")
-        return chosen
+        return [(f"{what} {k + first}", found[k]) for k in chosen]
 
     def frames(self, seconds: float) -> int:
-        """The number of frames in a film of this length."""
+        """Return the number of frames in a film of so many seconds; refuse too many."""
         if seconds * self.frames_per_second > MOST_FRAMES:
             raise ValueError(
                 f"{self.place}: duration times frames_per_second must be at most {MOST_FRAMES}, "
@@ -68,17 +80,17 @@ class Asked:
 
 
 @singledispatch
-def staged(result: Any, asked: Asked) -> Film:
-    """The film of a result."""
-    raise TypeError(f"{asked.place}: a {type(result).__name__} does not move")
+def staged(result: Any, choices: Choices) -> Film:
+    """Return the film of a result; each kind of result registers a function of its own."""
+    raise TypeError(f"{choices.place}: a {type(result).__name__} does not move")
 
 
 # ---- what turns at a constant speed
 
 
 @staged.register
-def _(modes: Modes, asked: Asked) -> Film:
-    rows = rows_of(asked.place, modes, asked.figures)
+def _(modes: Modes, choices: Choices) -> Film:
+    rows = rows_of(choices.place, modes, choices.figures)
     straight = Straight(modes.system)
     height = np.asarray(straight.height, float)
     largest = _reach_of_small(height, len(rows))
@@ -89,105 +101,73 @@ def _(modes: Modes, asked: Asked) -> Film:
         way = (" forward" if modes.angular_speed[row] > 0 else " backward") * both
         scale = largest / np.abs(shape).max()
         named.append((f"mode {modes.number[row]}{way}", shape, height, float(modes.angular_speed[row]), scale))
-    return replace(_turning(modes, named, asked), note="offsets exaggerated")
+    return replace(_turning(modes, named, choices), note="offsets exaggerated")
 
 
 @staged.register
-def _(shape: SteadyShape, asked: Asked) -> Film:
-    asked.only_one()
-    return _of_shapes([shape], shape, [""], asked)
-
-
-@staged.register
-def _(shapes: SteadyShapes, asked: Asked) -> Film:
-    places = asked.among(len(shapes), "shape")
-    return _of_shapes([shapes[k] for k in places], shapes, [f"shape {k + 1}" for k in places], asked)
-
-
-def _of_shapes(shapes: Sequence[Any], of: Any, labels: list[str], asked: Asked) -> Film:
+def _(found: SteadyShape | SteadyShapes, choices: Choices) -> Film:
     named: list[Turning] = []
-    for shape, label in zip(shapes, labels, strict=True):
-        waves = f"{shape.half_waves} half wave{'s' * (shape.half_waves != 1)}"
+    for label, shape in choices.among(found, "shape", first=1):
         offset, height = _bent(shape)
         speed = shape.angular_speed * shape.direction
-        named.append((f"{label}\n{waves}".strip(), offset, height, speed, 1.0))
-    return _turning(of, named, asked)
+        named.append((f"{label}\n{shape._waves}".strip(), offset, height, speed, 1.0))
+    return _turning(found, named, choices)
 
 
 def _bent(shape: Any) -> tuple[Floats, Floats]:
-    """Offsets and heights of pins, or of places of a cord equally far apart."""
+    """Offsets and heights of the pins, or of points of a cord equally far apart."""
     if not hasattr(shape, "arc_length"):
         return shape.offset, shape.height
-    places = shape.along(np.linspace(0.0, shape.system.length, PLACES))
-    return places.offset, places.height
+    points = shape.along(np.linspace(0.0, shape.system.length, CORD_POINTS))
+    return points.offset, points.height
 
 
-def _turning(result: Any, named: list[Turning], asked: Asked) -> Film:
-    """The film of figures that only turn."""
+def _turning(result: Any, named: list[Turning], choices: Choices) -> Film:
+    """Return the film of figures that keep their shape and turn at constant speeds."""
     period = np.array([TURN / abs(speed) for *_, speed, _ in named if speed])
     slow, fast = (float(period.max()), float(period.min())) if period.size else (SLOWEST_TURN, SLOWEST_TURN)
-    scale = asked.time_scale or min(slow / SLOWEST_TURN, fast / FASTEST_TURN)
-    seconds = min(slow / scale, LONGEST) if asked.duration is None else asked.duration
-    frames = asked.frames(seconds)
+    scale = choices.time_scale or min(slow / SLOWEST_TURN, fast / FASTEST_TURN)
+    seconds = min(slow / scale, LONGEST) if choices.duration is None else choices.duration
+    frames = choices.frames(seconds)
     turns = math.floor(seconds * scale / slow * (1 + 1e-9))
-    if asked.time_scale is None and turns:
-        scale = turns * slow * asked.frames_per_second / frames  # the slowest ends where it began
-    time = scale * np.arange(frames) / asked.frames_per_second
-    figures = [
-        Figure(
-            label,
-            larger * offset[None] + 0j,
-            height[None],
-            np.array([larger]),
-            np.asarray(speed * time),
-            np.array([speed]),
-            (f"{label}\n{speed_words(speed)}",),
-        )
-        for label, offset, height, speed, larger in named
-    ]
-    return _film(result, figures, asked, scale)
-
-
-def speed_words(speed: float) -> str:
-    """A speed in rad/s and in rpm."""
-    return f"{digits(speed, 4)} rad/s\n{digits(speed * 30 / np.pi, 4)} rpm"
+    if choices.time_scale is None and turns:
+        scale = turns * slow * choices.frames_per_second / frames  # the slowest ends where it began
+    time = scale * np.arange(frames) / choices.frames_per_second
+    figures = []
+    for label, offset, height, speed, larger in named:
+        scales, phase = np.array([larger]), np.asarray(speed * time)
+        captions = with_speeds([label], [speed], CAPTION_UNITS)
+        drawn = larger * offset[None] + 0j
+        figures.append(Figure(label, drawn, height[None], scales, phase, np.array([speed]), tuple(captions)))
+    return _film(result, figures, choices, scale)
 
 
 # ---- what changes along a branch, or with the speed
 
 
 @staged.register
-def _(branch: Branch, asked: Asked) -> Film:
-    asked.only_one()
-    return _of_branches([branch], branch, [""], asked)
-
-
-@staged.register
-def _(branches: Branches, asked: Asked) -> Film:
-    places = asked.among(len(branches), "branch")
-    return _of_branches([branches[k] for k in places], branches, [f"branch {k}" for k in places], asked)
-
-
-def _of_branches(branches: Sequence[Any], of: Any, labels: list[str], asked: Asked) -> Film:
-    quantity = "tip_radius" if hasattr(branches[0], "tip_radius") else "largest_offset"
+def _(found: Branch | Branches, choices: Choices) -> Film:
+    chosen = choices.among(found, "branch")
+    first = chosen[0][1]
+    quantity = "tip_radius" if hasattr(first, "tip_radius") else "largest_offset"
     stages = []
     curves = []
-    for branch in branches:
-        kept = _stages(len(branch), branch.folds)
-        rows = [_bent(shape) if (shape := _shape_or_none(branch, k)) is not None else None for k in kept.tolist()]
+    for _, branch in chosen:
+        points = _stages(len(branch), branch.folds)
+        rows = [_bent(shape) if (shape := _shape_or_none(branch, k)) is not None else None for k in points.tolist()]
         straight = Straight(branch.system).height if None in rows else np.empty(0)
         if None in rows and branch.system._is_cord:
-            straight = np.linspace(straight[0], straight[-1], PLACES)
+            straight = np.linspace(straight[0], straight[-1], CORD_POINTS)
         rows = [(np.zeros_like(straight), straight) if row is None else row for row in rows]
         offset, height = (np.array(part) for part in zip(*rows, strict=True))
-        speed = branch.angular_speed[kept]
+        speed = branch.angular_speed[points]
         moved = np.hypot(np.diff(offset, axis=0), np.diff(height, axis=0)).max(axis=1) / np.ptp(height, axis=1).max()
         steps = moved + np.abs(np.diff(speed)) / speed.max()
         way = np.concatenate([[0.0], np.cumsum(steps)])
         stages.append(_Stages(way, offset + 0j, height, speed * branch.direction, np.ones(speed.size)))
-        curves.append(getattr(branch, quantity)[kept])
-    words = words_of(quantity, branches[0].system.by_mass)
-    return _swept(of, labels, stages, asked, words, curves, "Along branch")
+        curves.append(getattr(branch, quantity)[points])
+    labels = [label for label, _ in chosen]
+    return _swept(found, labels, stages, choices, words_of(quantity, first.system.by_mass), curves, "Along branch")
 
 
 def _stages(count: int, folds: Any) -> Any:
@@ -205,25 +185,25 @@ def _shape_or_none(branch: Any, point: int) -> Any:
 
 
 @staged.register
-def _(found: Response, asked: Asked) -> Film:
-    asked.only_one()
+def _(found: Response, choices: Choices) -> Film:
+    choices.only_one()
     if found.pins.shape != (found.system.size + 1,) or not np.array_equal(found.pins, np.arange(found.pins.size)):
-        raise ValueError(f"{asked.place}: every pin is needed; compute the response without pins=")
+        raise ValueError(f"{choices.place}: every pin is needed; compute the response without pins=")
     height = Straight(found.system).height
     speed, offset = found.angular_speed.reshape(-1), found.offset.reshape(-1, found.pins.size)
     known = np.isfinite(offset).all(axis=1)
     if not known.any():
-        raise ValueError(f"{asked.place}: there is no speed to draw that is not a resonance")
+        raise ValueError(f"{choices.place}: there is no speed to draw that is not a resonance")
     order = np.argsort(speed[known])
     speed, offset = speed[known][order], offset[known][order]
     largest, most = _reach_of_small(height, 1), np.abs(offset).max(axis=1)
     scale = np.minimum(largest / np.quantile(most, 0.75), largest / most)
     if speed.size == 1:
         label = "carried round"
-        return _turning(found, [(label, offset[0], height, float(speed[0]), float(scale[0]))], asked)
+        return _turning(found, [(label, offset[0], height, float(speed[0]), float(scale[0]))], choices)
     rows = np.broadcast_to(height, offset.shape)
     stages = _Stages(np.arange(speed.size, dtype=float), offset * scale[:, None] + 0j, rows, speed, scale)
-    return _swept(found, ["carried round"], [stages], asked, "largest distance from axis (m)", [most], "Speed")
+    return _swept(found, ["carried round"], [stages], choices, "largest distance from axis (m)", [most], "Speed")
 
 
 @dataclass(frozen=True)
@@ -241,42 +221,41 @@ def _swept(
     result: Any,
     labels: list[str],
     stages: list[_Stages],
-    asked: Asked,
+    choices: Choices,
     quantity: str,
     curves: list[Floats],
     progress: str,
 ) -> Film:
     """Figures that go through stages, all from their first to their last, turning as fast as each stage does."""
-    frames = asked.frames(FOR_A_SWEEP if asked.duration is None else asked.duration)
+    frames = choices.frames(FOR_A_SWEEP if choices.duration is None else choices.duration)
     fastest = max(float(np.abs(each.speed).max()) for each in stages)
-    time_scale = asked.time_scale or TURN / fastest / FASTEST_TURN
+    time_scale = choices.time_scale or TURN / fastest / FASTEST_TURN
     figures, x, y, lines = [], [], [], []
     for label, each, curve in zip(labels, stages, curves, strict=True):
         at = np.linspace(0.0, each.way[-1], frames)
         speed, scale = (np.interp(at, each.way, values) for values in (each.speed, each.scale))
-        turned = np.cumsum((speed[1:] + speed[:-1]) / 2) * time_scale / asked.frames_per_second
-        captions = [f"{label}\n{speed_words(now)}".strip() for now in speed.tolist()]
+        turned = np.cumsum((speed[1:] + speed[:-1]) / 2) * time_scale / choices.frames_per_second
+        captions = [text.strip() for text in with_speeds([label] * frames, speed.tolist(), CAPTION_UNITS)]
         if np.ptp(each.scale):
-            captions = [
-                f"{text}\noffsets {larger:.3g}:1" for text, larger in zip(captions, scale.tolist(), strict=True)
-            ]
+            larger = [f"\noffsets {by:.3g}:1" for by in scale.tolist()]
+            captions = list(map(str.__add__, captions, larger))
         offset = _between(at, each.way, each.offset)
         height = _between(at, each.way, each.height)
         figures.append(Figure(label, offset, height, scale, np.concatenate([[0.0], turned]), speed, tuple(captions)))
-        kept = thinned(curve)
+        drawn = thinned(curve)
         way = -1.0 if (each.speed <= 0).all() else 1.0  # a branch of backward rotation is drawn as one of forward
-        lines.append((way * each.speed[kept], curve[kept]))
+        lines.append((way * each.speed[drawn], curve[drawn]))
         x.append(way * speed)
         y.append(np.interp(at, each.way, curve))
     said = [f"{progress}es: {percent:.0f} %" for percent in np.linspace(0.0, 100.0, frames)]
     if len(figures) == 1:
         said = [f"{progress}: {digits(now, 3)} rad/s" for now in x[0].tolist()]
     chart = Chart("speed (rad/s)", quantity, tuple(lines), tuple(x), tuple(y))
-    return _film(result, figures, asked, time_scale, chart, said)
+    return _film(result, figures, choices, time_scale, chart, said)
 
 
 def _between(at: Floats, way: Floats, rows: Any) -> Any:
-    """Rows interpolated between those of the stages."""
+    """Interpolate the rows of the stages linearly at these distances along the way."""
     after = np.clip(np.searchsorted(way, at, side="right"), 1, max(way.size - 1, 1))
     if way.size == 1:
         return np.repeat(rows, at.size, axis=0)
@@ -289,35 +268,30 @@ def _between(at: Floats, way: Floats, rows: Any) -> Any:
 
 
 @staged.register
-def _(found: Swing, asked: Asked) -> Film:
+def _(found: Swing, choices: Choices) -> Film:
     def at(time: Floats) -> Complex:
         whole = (np.exp(1j * np.outer(time, found.angular_frequency)) * found.amplitude) @ found.shape
         return np.asarray(whole if found.offset.dtype.kind == "c" else whole.real, np.complex128)
 
     cord = found.arc_length is not None
     height = found.arc_length - found.system.length if cord else Straight(found.system).height
-    return _swung(found, asked, at, height)
-
-
-def _swung(found: Any, asked: Asked, at: Callable[[Floats], Complex], height: Floats) -> Film:
-    """The film from the first to the last time of a swing, as the sum of its modes."""
-    asked.only_one()
+    choices.only_one()
     first, last = float(found.time.min(initial=np.inf)), float(found.time.max(initial=-np.inf))
     if not first < last:
-        raise ValueError(f"{asked.place}: the swing needs two times or more, the first and the last of the film")
-    seconds = asked.duration or min(
-        (last - first) / (asked.time_scale or 1.0), LONGEST if asked.time_scale is None else np.inf
+        raise ValueError(f"{choices.place}: the swing needs two times or more, the first and the last of the film")
+    seconds = choices.duration or min(
+        (last - first) / (choices.time_scale or 1.0), LONGEST if choices.time_scale is None else np.inf
     )
-    frames = asked.frames(seconds)
-    time_scale = asked.time_scale or (last - first) / seconds
-    time = first + np.arange(frames) / asked.frames_per_second * time_scale
+    frames = choices.frames(seconds)
+    time_scale = choices.time_scale or (last - first) / seconds
+    time = first + np.arange(frames) / choices.frames_per_second * time_scale
     offset = at(time)
     most, deep = float(np.abs(offset).max()), float(np.ptp(height))
     scale = 1.0 if 0.1 * deep <= most <= 0.35 * deep or not most else _reach_of_small(height, 1) / most
     captions = ("true to scale" if scale == 1 else f"offsets {scale:.3g}:1",)
     still = np.zeros(frames)
     figure = Figure("swing", scale * offset, height[None], np.full(frames, scale), still, np.zeros(1), captions)
-    return _film(found, [figure], asked, time_scale, progress=[f"Time: {now:.3f} s" for now in time.tolist()])
+    return _film(found, [figure], choices, time_scale, progress=[f"Time: {now:.3f} s" for now in time.tolist()])
 
 
 # ---- what all films have
@@ -331,7 +305,7 @@ def _reach_of_small(height: Floats, count: int) -> float:
 def _film(
     result: Any,
     figures: list[Figure],
-    asked: Asked,
+    choices: Choices,
     time_scale: float,
     chart: Chart | None = None,
     progress: Sequence[str] = (),
@@ -350,7 +324,7 @@ def _film(
         gravity=gravity,
         figures=tuple(figures),
         bodies=_bodies(system, base) if few or system._is_cord else Bodies(),
-        frames_per_second=asked.frames_per_second,
+        frames_per_second=choices.frames_per_second,
         time_scale=time_scale,
         names=names,
         stout=np.broadcast_to(system._stands, figures[0].offset.shape[1] - 1),

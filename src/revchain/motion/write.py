@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
+import base64
 import html
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
+from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -16,13 +18,27 @@ from ..systems.extras import require
 from ..systems.numbers import file_path, one_positive, shown
 from .film import Film
 from .frames import write_gif, write_mp4
-from .page import page_of, write_page
-from .solid import write_glb
-from .staging import Asked, staged
+from .solid import glb_of, write_glb
+from .staging import Choices, staged
 
 RATES = (0.1, 1000.0)  # frames in a second
 MOST_TURNS = 5000  # of a solid, which has four keys for each
 Progress = Callable[[int, int], None]
+
+
+def write_page(film: Film, path: Path, progress: Progress) -> None:
+    """Write the page of a film, which needs no other file and no network."""
+    path.write_text(page_of(film, progress), encoding="utf-8")
+
+
+def page_of(film: Film, progress: Progress) -> str:
+    """Return the page of a film: HTML that contains the .glb file and a viewer of it (three.js)."""
+    solid = base64.b64encode(glb_of(film, progress)).decode()
+    folder = files("revchain").joinpath("motion")
+    page, script = (folder.joinpath(name).read_text(encoding="utf-8") for name in ("viewer.html", "viewer.min.js"))
+    return page.replace("@script@", script).replace("@solid@", solid).replace("@title@", html.escape(film.system))
+
+
 WRITERS: dict[str, dict[str, Callable[[Film, Path, Progress], None]]] = {
     "animate": {".gif": write_gif, ".mp4": write_mp4, ".html": write_page},
     "to_glb": {".glb": write_glb},
@@ -41,13 +57,11 @@ def write_film(
     method: str,
     path: str | os.PathLike[str],
     *,
-    figures: Iterable[int] | None = None,
-    time_scale: float | None = None,
-    duration: float | None = None,
     frames_per_second: float = 25.0,
     progress: Progress | None = None,
+    **chosen: Any,
 ) -> None:
-    """Write a result to a path; see `Moving`, which has these methods."""
+    """Write a result to a path; see `Moving`, whose methods `animate` and `to_glb` pass on what the caller chose."""
     place, writers = f"revchain.{type(result).__name__}.{method}", WRITERS[method]
     ending = os.path.splitext(file_path(place, "path", path))[1].lower()
     if ending not in writers:
@@ -60,7 +74,7 @@ def write_film(
         raise TypeError(f"{place}: progress must be a function of two numbers, got {shown(progress)}")
     if ending == ".gif":
         rate = 100 / max(2, round(100 / rate))  # its clock counts hundredths of a second
-    film = _film(result, place, figures, time_scale, duration, rate, is_solid=ending in (".html", ".glb"))
+    film = _film(result, Choices(place, rate, **chosen), is_solid=ending in (".html", ".glb"))
     with naming(path), written_aside(path) as [aside]:
         writers[ending](film, aside, progress or _silent)
 
@@ -69,7 +83,8 @@ class View:
     """A page in a notebook, which shows objects by their ``_repr_html_``."""
 
     def __init__(self, page: str, height: float) -> None:
-        self._frame = f'<iframe srcdoc="{html.escape(page)}" style="width: 100%; height: {height:g}px; border: 0"></iframe>'
+        style = f"width: 100%; height: {height:g}px; border: 0"
+        self._frame = f'<iframe srcdoc="{html.escape(page)}" style="{style}"></iframe>'
 
     def _repr_html_(self) -> str:
         return self._frame
@@ -78,32 +93,20 @@ class View:
         return "a motion, which notebooks show"
 
 
-def show_film(
-    result: Any, figures: Iterable[int] | None, time_scale: float | None, duration: float | None, height: float
-) -> View:
+def show_film(result: Any, height: float, **chosen: Any) -> View:
     """Return the page of a result as a view; see `Moving.show`."""
     place = f"revchain.{type(result).__name__}.show"
     tall = one_positive(place, "height", height)
-    return View(page_of(_film(result, place, figures, time_scale, duration, 25.0, is_solid=True), _silent), tall)
+    return View(page_of(_film(result, Choices(place, **chosen), is_solid=True), _silent), tall)
 
 
-def _film(
-    result: Any,
-    place: str,
-    figures: Iterable[int] | None,
-    time_scale: float | None,
-    duration: float | None,
-    rate: float,
-    is_solid: bool,
-) -> Film:
-    given = {"time_scale": time_scale, "duration": duration}
-    numbers = {name: None if value is None else one_positive(place, name, value) for name, value in given.items()}
-    film = staged(result, Asked(place, figures, numbers["time_scale"], numbers["duration"], rate))
+def _film(result: Any, choices: Choices, is_solid: bool) -> Film:
+    """Return the film of a result; refuse a 3D model with too many turns."""
+    film = staged(result, choices)
     turns = max(float(np.abs(figure.phase).max()) for figure in film.figures) / (2 * np.pi)
     if is_solid and turns > MOST_TURNS:
-        raise ValueError(
-            f"{place}: no figure may turn more than {MOST_TURNS} times; lower time_scale or duration, got {turns:g} turns"
-        )
+        most = f"no figure may turn more than {MOST_TURNS} times"
+        raise ValueError(f"{choices.place}: {most}; lower time_scale or duration, got {turns:g} turns")
     return film
 
 

@@ -9,8 +9,8 @@ DRAWN_BY = {
     "Modes": "modes.plot_modes",
     "SteadyShape": "shapes.plot_shape",
     "SteadyShapes": "shapes.plot_shapes",
-    "Branch": "branches.plot_branch",
-    "Branches": "branches.plot_branches",
+    "Branch": "shapes.plot_branch",
+    "Branches": "shapes.plot_branches",
     "Response": "response.plot_response",
     "Swing": "response.plot_swing",
     "ForceDiagram": "closed_forms.plot_force_diagram",
@@ -20,5 +20,5 @@ DRAWN_BY = {
     "GovernorMotion": "closed_forms.plot_governor",
     "GyrostaticString": "closed_forms.plot_waves",
     "GyrostaticString.vibration": "closed_forms.plot_vibration",
-    "BellAndClapper": "bell.plot_bell",
+    "BellAndClapper": "closed_forms.plot_bell",
 }

@@ -1,24 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of the closed forms of the paper, and force diagrams, by matplotlib."""
+"""Pictures of the closed forms of the paper, and force diagrams."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..closed_forms.table import described
 from ..systems.numbers import count, one_positive, refuse_beyond_memory, shown
-from .style import WIDEST, axes_or_new, checked_axes, keep_room, legend_outside, new_figure
+from .style import AXIS, WIDEST, SpeedUnit, axes_or_new, checked_axes, keep_room, legend_outside, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from ..closed_forms.governor import GovernorMotion
-    from ..closed_forms.gyrostatic_string import GyrostaticString
-    from ..closed_forms.rope import SkippingRope, TortuousRope
-    from ..closed_forms.statics import FunicularPolygon
+    from ..closed_forms.bell import BellAndClapper
+    from ..closed_forms.motions import GovernorMotion, SkippingRope, TortuousRope
+    from ..closed_forms.strings import FunicularPolygon, GyrostaticString
     from ..results.diagrams import ForceDiagram
 
 BYTES = 64  # of a point of a curve
@@ -27,7 +26,7 @@ MAX_LINKS_SEEN = 12  # of which the plane is drawn end on
 
 
 def _two_axes(axes: tuple[Axes, Axes] | None, width: float, height: float) -> tuple[Axes, Axes]:
-    """Those of the caller, or new ones side by side on a figure of their own."""
+    """Return the two axes of the caller, or new axes side by side on a figure of their own."""
     if axes is None:
         left, right = new_figure(width, height).subplots(1, 2)
         return left, right
@@ -37,17 +36,12 @@ def _two_axes(axes: tuple[Axes, Axes] | None, width: float, height: float) -> tu
     return checked_axes(two[0]), checked_axes(two[1])
 
 
-def _letter(ax: Axes, text: str, x: float, z: float, right: bool = True, color: str = "black", below: bool = False) -> None:
+def _letter(
+    ax: Axes, text: str, x: float, z: float, right: bool = True, color: str = "black", below: bool = False
+) -> None:
     """Write a letter beside a point, to the right of it or to the left, above or below."""
-    ax.annotate(
-        f"${text}$",
-        (x, z),
-        xytext=(5 if right else -5, -3 if below else 3),
-        textcoords="offset points",
-        ha="left" if right else "right",
-        va="top" if below else "bottom",
-        color=color,
-    )
+    beside: dict[str, Any] = {"ha": "left" if right else "right", "va": "top" if below else "bottom", "color": color}
+    ax.annotate(f"${text}$", (x, z), (5 if right else -5, -3 if below else 3), textcoords="offset points", **beside)
 
 
 def _finish(ax: Axes, across: str, up: str, title: str) -> None:
@@ -59,9 +53,7 @@ def _finish(ax: Axes, across: str, up: str, title: str) -> None:
 
 
 @described(bound=True)
-def plot_force_diagram(
-    diagram: ForceDiagram, axes: tuple[Axes, Axes] | None = None
-) -> tuple[Axes, Axes]:
+def plot_force_diagram(diagram: ForceDiagram, axes: tuple[Axes, Axes] | None = None) -> tuple[Axes, Axes]:
     """Draw the shape and its force diagram side by side, with the letters of Fig. 3 of the paper.
 
     returns: Axes of the shape and of the forces. The weights lifted onto the line through N are drawn to a scale in
@@ -79,7 +71,7 @@ def plot_force_diagram(
     plummets = bool(np.array_equal(ray, reaction))
     centre = diagram.centre_of_gravity
 
-    figure.axvline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
+    figure.axvline(0.0, **AXIS)
     for m in range(count):
         figure.plot(*pin[m : m + 2].T, color=f"C{m % 10}", linewidth=1.8, zorder=3)
     figure.plot(*pin[:-1].T, linestyle="none", marker="o", markersize=5.0, color="black", zorder=4)
@@ -168,18 +160,19 @@ def plot_funicular_polygon(
 
 
 @described(bound=True)
-def plot_skipping_rope(rope: SkippingRope, ax: Axes | None = None) -> Axes:
+def plot_skipping_rope(rope: SkippingRope, ax: Axes | None = None, *, speed: str = "rad/s") -> Axes:
     """Draw the rope seen from the side.
 
     >>> rc.SkippingRope(span=2.0, length=3.0).plot().get_xlabel()
     'along the axis (m)'
     """
+    unit = SpeedUnit("revchain.SkippingRope.plot", speed)
     refuse_beyond_memory("revchain.SkippingRope.plot", "half_waves", rope.half_waves, 200 * BYTES)
     ax = axes_or_new(ax, 6.4, 4.0)
-    places = rope.at_arc(np.linspace(0.0, rope.length, 200 * rope.half_waves + 1))
-    ax.axhline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
-    label = f"{rope.angular_speed:.4g} rad/s" if rope.has_speed else f"length {rope.length:.4g}"
-    ax.plot(places.x, places.offset, linewidth=1.6, label=label)
+    points = rope.at_arc(np.linspace(0.0, rope.length, 200 * rope.half_waves + 1))
+    ax.axhline(0.0, **AXIS)
+    label = unit.text(rope.angular_speed) if rope.has_speed else f"length {rope.length:.4g}"
+    ax.plot(points.x, points.offset, linewidth=1.6, label=label)
     ax.set(xlabel="along the axis (m)", ylabel="distance from axis (m)", aspect="equal")
     legend_outside(ax)
     return ax
@@ -198,11 +191,11 @@ def plot_tortuous_rope(rope: TortuousRope, ax: Axes | None = None, *, half_waves
     half_waves = one_positive("revchain.TortuousRope.plot", "half_waves", half_waves)
     refuse_beyond_memory("revchain.TortuousRope.plot", "half_waves", int(half_waves), 200 * BYTES)
     ax = axes_or_new(ax, 5.0, 5.0)
-    places = rope.at(np.linspace(0.0, half_waves * rope.half_wave, 1 + int(200 * max(half_waves, 1.0))))
+    points = rope.at(np.linspace(0.0, half_waves * rope.half_wave, 1 + int(200 * max(half_waves, 1.0))))
     round_ = np.linspace(0.0, 2 * np.pi, 200)
     for radius in {rope.least_radius, rope.greatest_radius} - {0.0}:
         ax.plot(radius * np.cos(round_), radius * np.sin(round_), color="0.7", linestyle="--", linewidth=0.9)
-    ax.plot(places.radius * np.cos(places.angle), places.radius * np.sin(places.angle), linewidth=1.6)
+    ax.plot(points.radius * np.cos(points.angle), points.radius * np.sin(points.angle), linewidth=1.6)
     ax.plot(0.0, 0.0, marker="+", color="0.4")
     ax.set(
         xlabel="x (m)",
@@ -214,9 +207,7 @@ def plot_tortuous_rope(rope: TortuousRope, ax: Axes | None = None, *, half_waves
 
 
 @described(bound=True)
-def plot_governor(
-    motion: GovernorMotion, ax: Axes | None = None, *, duration: float | None = None
-) -> Axes:
+def plot_governor(motion: GovernorMotion, ax: Axes | None = None, *, duration: float | None = None) -> Axes:
     """Draw the angle against time, with its smallest and largest values.
 
     duration: Length of the time axis in s; two periods if left out.
@@ -242,21 +233,22 @@ def plot_governor(
 
 
 @described(bound=True)
-def plot_waves(string: GyrostaticString, ax: Axes | None = None) -> Axes:
+def plot_waves(string: GyrostaticString, ax: Axes | None = None, *, speed: str = "rad/s") -> Axes:
     """Draw the speeds of circular waves in both directions against their phase.
 
     >>> string = rc.GyrostaticString(weight=9.80665, length=1.0, tension=100.0, momentum=1.0)
     >>> string.plot().get_xlabel()
     'phase difference between links (degrees)'
     """
+    unit = SpeedUnit("revchain.GyrostaticString.plot", speed)
     ax = axes_or_new(ax, 6.4, 4.0)
     phase = np.linspace(0.0, np.pi, 200)[1:]
     speeds = string.angular_speeds(phase)
-    both = [speeds.forward, -speeds.backward]
+    both = [unit.of(speeds.forward), unit.of(-speeds.backward)]
     labels = ["with the spin", "against the spin"][:: 1 if string.momentum >= 0 else -1]
-    for speed, color, label in zip(both, ("C0", "C3"), labels, strict=True):
-        ax.plot(np.degrees(phase), speed, color=color, label=label)
-    ax.set(xlabel="phase difference between links (degrees)", ylabel="speed (rad/s)", xlim=(0, 180))
+    for y, color, label in zip(both, ("C0", "C3"), labels, strict=True):
+        ax.plot(np.degrees(phase), y, color=color, label=label)
+    ax.set(xlabel="phase difference between links (degrees)", ylabel=unit.label, xlim=(0, 180))
     usual = 2 * np.nanmedian(both)  # a wave of bodies without inertia across themselves has no bound at 180 degrees
     ax.set_ylim(0, usual if np.nanmax(both) > 3 * usual else None)
     legend_outside(ax)
@@ -292,5 +284,61 @@ def plot_vibration(string: GyrostaticString, angular_speed: float, links: int = 
         ax.plot([at - across, at + across], [1.5 - along, 1.5 + along], color="black", linewidth=1.4)
     ax.annotate("plane of vibration, end on", (0.0, 1.85), fontsize="small")
     ax.set(xlabel="link", ylabel="offset / amplitude", ylim=(-1.7, 2.1), yticks=[-1, 0, 1])
+    legend_outside(ax)
+    return ax
+
+
+@described(bound=True)
+def plot_bell(bell: BellAndClapper, ax: Axes | None = None) -> Axes:
+    """Draw bell, clapper and headstock at rest, true to scale.
+
+    returns: The drawing: the axle, the pin of the clapper, both centres of gravity, and the pendulum lengths beside
+        them. The outline of the bell is only an illustration: the data do not define it.
+
+    >>> links = {"mass": [18, 500], "length": [0.65, 0.15], "centroid": [0.52, 0.05]}
+    >>> rc.bell_and_clapper(rc.Chain(**links, radius_of_gyration=[0.08, 0.36])).plot().get_ylabel()
+    'depth below axle (m)'
+    """
+    data = bell.present
+    pin, h1, h2 = data["joint"], data["clapper_centroid"], data["bell_centroid"]
+    gyration = data["clapper_radius_of_gyration"], data["bell_radius_of_gyration"]
+    l1, l2 = (h + rho**2 / h if h else np.inf for h, rho in zip((h1, h2), gyration, strict=True))
+    ball = float(bell.system.length[0])  # from the pin of the clapper to its ball
+    lip = pin + 1.12 * ball
+    crown = max(0.0, pin - 0.12 * ball)
+    ax = axes_or_new(ax, 8.5, 5.0)
+
+    down = np.linspace(0.0, 1.0, 60)
+    wide = 0.62 * (lip - crown) * (np.minimum(1.0, (down / 0.12) ** 0.4) * (0.5 + 0.14 * down) + 0.36 * down**6)
+    depth = crown + (lip - crown) * down
+    ax.plot(np.concatenate([-wide[::-1], wide]), np.concatenate([depth[::-1], depth]), color="0.45", linewidth=2.5)
+    half, top = 0.32 * (lip - crown), min(-0.06 * ball, crown - 0.18 * ball)
+    ax.fill([-half, half, half, -half], [crown, crown, top, top], color="0.88", edgecolor="0.45", zorder=1)
+    ax.text(1.1 * half, (crown + top) / 2, "headstock", color="0.35", va="center", fontsize="small")
+    ax.plot([0.0, 0.0], [pin, pin + 1.08 * ball], color="C3", linewidth=2.2, zorder=3)
+    ax.plot(0.0, pin + ball, marker="o", markersize=13.0, color="C3", zorder=3)
+    marks = [
+        (0.0, "axle", "^", "black"),
+        (pin, "pin of the clapper", "o", "C3"),
+        (h2, "centroid of the bell", "x", "0.3"),
+        (pin + h1, "centroid of the clapper", "x", "C3"),
+    ]
+    for z, name, marker, colour in marks:
+        ax.plot(0.0, z, marker=marker, linestyle="none", color=colour, markersize=8.0, label=name, zorder=4)
+    side = -1.25 * wide[-1]
+    for x, start, length, name, colour in (
+        (side, 0.0, l2, "bell: $l_2$", "0.3"),
+        (0.82 * side, pin, l1, "clapper: $l_1$", "C3"),
+    ):
+        if abs(length) > 3 * lip:  # too far to be drawn
+            ax.plot([], [], color=colour, linewidth=1.2, label=f"pendulum length, {name} = {length:.4g} m")
+            continue
+        ax.plot([x, x], [start, start + length], color=colour, linewidth=1.2, marker="_", markersize=12.0)
+        ax.annotate(name.split()[1], (x, start + length / 2), xytext=(5, 0), textcoords="offset points", color=colour)
+    ax.set(xlabel="distance from axle (m)", ylabel="depth below axle (m)", aspect="equal")
+    ax.set_title(f"Clapper / bell in the slower mode: {bell.inclination_ratio[0]:.3g}")
+    ax.margins(0.1)
+    if not ax.yaxis_inverted():
+        ax.invert_yaxis()
     legend_outside(ax)
     return ax

@@ -15,7 +15,10 @@ from ..closed_forms.table import described
 from ..results.motions import Response
 from ..results.sheet import digits
 from ..systems.numbers import integer, listed, shown
-from .style import MOST_PINS_AS_DOTS, MOST_POINTS, WIDEST, axes_or_new, new_figure, plain, thinned
+from .style import (
+    ALL_BUT_HERTZ, AXIS, MOST_PINS_AS_DOTS, MOST_POINTS, WIDEST, SpeedUnit, axes_or_new, new_figure, plain, thinned,
+    with_speeds,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -30,7 +33,7 @@ CARRIED = "C2"
 ARM: dict[str, Any] = {"color": "black", "linewidth": 2.5, "zorder": 3, "clip_on": False}
 SUPPORT: dict[str, Any] = {"color": "black", "markersize": 7.0, "zorder": 4, "clip_on": False}
 FOLD = 0.3  # sideways, between the links that hang and those that stand on them, at rest
-MOST_SHAPES = 6  # drawn unless asked: more do not stay legible side by side
+MOST_SHAPES = 6  # unless the caller chooses them: more are not legible side by side
 SPACING = 2.6  # between the axes of neighbouring shapes, each of which reaches from -1 to 1
 MOST_NAMES = 12
 NAME_WIDTH = 12  # letters in a line of a name
@@ -40,7 +43,7 @@ WHEEL = 0.6  # half the length of the bar of a flywheel
 
 
 class Straight:
-    """A system as it hangs straight: the places of its pins along the axis, and what the axis is called."""
+    """A system that hangs straight: the levels of its pins along the axis, and the drawing of its parts."""
 
     def __init__(self, system: System) -> None:
         self.system, self.base = system, system._base
@@ -56,31 +59,32 @@ class Straight:
 
     @property
     def said(self) -> str:
-        """What to write under the system at rest."""
+        """The text under the system at rest: the fluid, and an arm that is not drawn to scale."""
         fluid = f"\nin {self.system._fluid} fluid" if self.system._fluid else ""
         arm = "\narm not\nto scale" if self.system._support is not None and self.system._support.radius else ""
         return f"at rest{fluid}{arm}"
 
     def names(self) -> list[str]:
-        """Of the links, in short lines; none where they are many."""
+        """Return the names of the links, in short lines; none if there are many links."""
         names = getattr(self.base, "names", None)
         few = names is not None and len(names) <= MOST_NAMES and self.few
         return [plain(textwrap.fill(name, NAME_WIDTH)) for name in names or ()] if few else []
 
     def beside(self) -> Floats:
-        """Half the width of each link: of its flywheel."""
+        """Return how far each link reaches sideways: half the width of its flywheel, or 0."""
         if not self.system.has_momentum:
             return np.zeros(self.level.size - 1)
         return np.where(self.system._momentum(1.0) != 0, WHEEL, 0.0)
 
     def reach(self) -> float:
-        """To where the names reach, where columns are as wide as they are by default."""
+        """Return how far the names reach sideways if columns have their usual width."""
         longest = [max(map(len, name.split("\n"))) + 2 for name in self.names()]
-        return max((far + n * LETTER * SPACING / COLUMN for n, far in zip(longest, self.beside(), strict=False)), default=0.0)
+        letter = LETTER * SPACING / COLUMN
+        return max((far + n * letter for n, far in zip(longest, self.beside(), strict=False)), default=0.0)
 
     @property
     def height(self) -> Floats:
-        """Of each pin or place, above the support, or the lower end of what is held at both ends."""
+        """Height of each pin or point of a cord above the support, or above the lower end of a held system."""
         return self.level if self.upwards else -self.level
 
     def finish(self, ax: Axes, bodies: bool = True) -> None:
@@ -108,11 +112,11 @@ class Straight:
             ax.plot(at, self.level[0], marker="^", **SUPPORT)
 
     def links(self, ax: Axes, across: Floats, colour: str, label: str | None = None) -> None:
-        """The links, inverted ones drawn stout."""
-        kept = thinned(across) if across.size > MOST_POINTS else slice(None)
+        """Draw the links at these distances from the vertical; inverted ones are drawn stout."""
+        drawn = thinned(across) if across.size > MOST_POINTS else slice(None)
         marker = "o" if self.few else ""
         line: dict[str, Any] = {"color": colour, "linewidth": 1.6, "marker": marker, "markersize": 4.0, "zorder": 2}
-        ax.plot(across[kept], self.level[kept], label=label, **line)
+        ax.plot(across[drawn], self.level[drawn], label=label, **line)
         stout = np.flatnonzero(self.inverted)
         stout = stout[:: 1 + stout.size // MOST_POINTS]
         if stout.size:
@@ -121,7 +125,7 @@ class Straight:
             ax.plot(x, z, color=colour, linewidth=4.0, alpha=0.45, zorder=2)
 
     def at_rest(self, ax: Axes) -> None:
-        """The straight system: bodies as heavy as they are, wheels seen edge-on, and what holds it."""
+        """Draw the straight system: bodies sized by weight, wheels seen edge-on, and the support."""
         if self.system._is_cord:
             density = self.base.density
             where = (self.level[0] - self.level) if not self.system._is_held else self.level
@@ -147,19 +151,19 @@ class Straight:
             self.supports(ax, 0.0)
 
     def _folded(self, ax: Axes) -> Floats:
-        """Draw the line of the chain, beside itself where it turns back; the places of the links are returned."""
+        """Draw the line of the chain, beside itself where it turns back; return how far aside each link is."""
         stands, level, size = self.inverted, self.level, self.level.size - 1
         turns = np.flatnonzero(stands[1:] != stands[:-1]) + 1
         first, end = np.concatenate([[0], turns]), np.concatenate([turns, [size]])
-        places = min(FOLD, 1.0 / first.size) * np.arange(first.size)[::-1]
+        aside = min(FOLD, 1.0 / first.size) * np.arange(first.size)[::-1]
         path = np.stack([level[first], level[end]], 1).ravel()
-        ax.plot(np.repeat(places, 2), path, color=LINK, linewidth=1.6)
+        ax.plot(np.repeat(aside, 2), path, color=LINK, linewidth=1.6)
         up = stands[first]
-        ax.vlines(places[up], level[first][up], level[end][up], color=LINK, linewidth=4.0)
-        return np.repeat(places, end - first)
+        ax.vlines(aside[up], level[first][up], level[end][up], color=LINK, linewidth=4.0)
+        return np.repeat(aside, end - first)
 
     def _middles(self) -> Floats:
-        """Centres of gravity."""
+        """Return the level of the centre of gravity of each link."""
         along = (self.level[:-1] - self.level[1:]) / self.base.length  # +1 or -1
         middle: Floats = self.level[1:] + along * self.base.centroid
         return middle
@@ -181,16 +185,17 @@ class Straight:
             ax.hlines(middle[spun], across[spun] - WHEEL, across[spun] + WHEEL, color=colour, linewidth=4.0, zorder=3)
         for x, z, name, far in zip(across, middle, self.names(), self.beside(), strict=False):
             side = -1 if x < across.max() else 1  # to the left where links stand on the right
-            place: dict[str, Any] = {"ha": "left" if side > 0 else "right", "va": "center", "fontsize": "small"}
-            ax.annotate(name, (x + side * far, z), xytext=(9 * side, 0), textcoords="offset points", **place)
+            beside: dict[str, Any] = {"ha": "left" if side > 0 else "right", "va": "center", "fontsize": "small"}
+            ax.annotate(name, (x + side * far, z), xytext=(9 * side, 0), textcoords="offset points", **beside)
 
 
 def floating(system: System) -> NDArray[np.bool_]:
-    """Of each link: whether the fluid bears more than it weighs."""
+    """Return, for each link, whether the fluid that it displaces weighs more than the link."""
     base, displaced = system._base, getattr(system, "displaced", None)
     if displaced is None:
         return np.zeros(base.size, bool)
-    return np.broadcast_to(next(iter(displaced._given.values())), base.size) > np.broadcast_to(base._compiled.weight, base.size)
+    fluid, weight = next(iter(displaced._given.values())), base._compiled.weight
+    return np.broadcast_to(fluid, base.size) > np.broadcast_to(weight, base.size)
 
 
 @described(bound=True)
@@ -210,7 +215,8 @@ def plot_system(system: System, ax: Axes | None = None) -> Axes:
     straight.finish(ax)
     ax.set_xlim(-1.3, max(1.3, straight.reach()))
     if straight.few:
-        ax.set_xlabel("dots: centres of gravity (larger = heavier);\nrings: pins; bars: rods of equal inertia", fontsize="small")
+        said = "dots: centres of gravity (larger = heavier);\nrings: pins; bars: rods of equal inertia"
+        ax.set_xlabel(said, fontsize="small")
     ax.set_xticks([])
     if system._fluid:
         ax.set_facecolor(FLUID)
@@ -219,7 +225,7 @@ def plot_system(system: System, ax: Axes | None = None) -> Axes:
 
 
 def beside_at_rest(system: System | None, ax: Axes | None, width: float, height: float) -> Axes:
-    """The axes of the caller, or new ones: beside the system at rest where its links can be told apart."""
+    """Return the axes of the caller, or new axes, beside the system at rest if its links are few."""
     if ax is not None or system is None or not Straight(system).few:
         return axes_or_new(ax, width, height)
     straight = Straight(system)
@@ -230,36 +236,26 @@ def beside_at_rest(system: System | None, ax: Axes | None, width: float, height:
     return axes
 
 
-def chosen(place: str, available: Whole, which: Iterable[int] | None) -> list[int]:
-    """Numbers of the modes to draw."""
+def rows_of(place: str, modes: Modes, which: Iterable[int] | None) -> Whole:
+    """Return the rows of the modes to draw; of a rig both directions of each number."""
+    available = modes.number
     if available.size == 0:
         raise ValueError(f"{place}: there are no modes")
     if which is None:
-        return [int(number) for number in available[:MOST_SHAPES]]
+        return np.arange(min(len(modes), MOST_SHAPES))
     numbers = [integer(place, "modes", mode) for mode in listed(place, "modes", which)]
     for mode in numbers:
         if not available.min() <= mode <= available.max():
             raise ValueError(f"{place}: mode must be from {available.min()} to {available.max()}, got {mode}")
     if not numbers:
         raise ValueError(f"{place}: modes names no mode")
-    return numbers
-
-
-def rows_of(place: str, modes: Modes, which: Iterable[int] | None) -> Whole:
-    """Places of the modes to draw in the arrays; of a rig both directions of each number."""
-    if which is None and len(modes):
-        return np.arange(min(len(modes), MOST_SHAPES))
-    numbers = chosen(place, modes.number, which)
-    return np.concatenate([np.flatnonzero(modes.number == number) for number in numbers])
+    return np.concatenate([np.flatnonzero(available == number) for number in numbers])
 
 
 @described(bound=True)
 def plot_modes(
-    found: Modes,
-    ax: Axes | None = None,
-    modes: Iterable[int] | None = None,
-    *,
-    carried: Response | None = None,
+    found: Modes, ax: Axes | None = None, modes: Iterable[int] | None = None, *, carried: Response | None = None,
+    speed: str | None = None,
 ) -> Axes:
     """Draw the system at rest and, beside it, the mode shapes, each along its own axis; rings mark the nodes.
 
@@ -267,6 +263,8 @@ def plot_modes(
 
     modes: Numbers of the modes to draw (for a rig, of both directions); the six slowest of this result if left out.
     carried: Response of the same system at one speed with all pins, drawn first, with its support on its circle.
+    speed: Unit of the speeds: ``"rad/s"``, ``"rpm"``, ``"Hz"`` (turns per second) or ``"s"`` (the period). If left out,
+        each speed is written in rad/s, in rpm and as a period.
     raises: If `modes` has a number that is not in this result, the result is empty, or `carried` is not such a
         response.
 
@@ -274,26 +272,22 @@ def plot_modes(
     >>> ax.get_ylabel()
     'depth below the support (m)'
     """
-    return _beside(found, ax, modes, carried)
-
-
-def _beside(modes: Modes, ax: Axes | None, which: Iterable[int] | None, carried: Response | None) -> Axes:
-    """The system at rest and, beside it, the response and the modes."""
-    place = "revchain.Modes.plot"
-    system = modes.system
+    place, system = "revchain.Modes.plot", found.system
+    units = ALL_BUT_HERTZ if speed is None else [SpeedUnit(place, speed)]
     if carried is not None and not isinstance(carried, Response):
         raise TypeError(f"{place}: carried must be a revchain.Response, got {shown(carried)}")
     if carried is not None and (carried.system != system or carried.offset.shape != (system.size + 1,)):
         raise ValueError(f"{place}: carried must be the response of the same rig at one speed, of every pin")
-    rows = np.arange(0) if system._kind == "rig" and not len(modes) and which is None else rows_of(place, modes, which)
+    no_motion = system._kind == "rig" and not len(found) and modes is None
+    rows = np.arange(0) if no_motion else rows_of(place, found, modes)
     straight = Straight(system)
-    labels = [straight.said]
-    if carried is not None:
-        labels.append(_speed_label("carried round", float(carried.angular_speed)))
-    before, turning = len(labels), modes.has_momentum
+    names, rates = ([], []) if carried is None else (["carried round"], [carried.angular_speed.item()])
+    before = 1 + len(names)
     for row in rows:
-        way = ("\nforward" if modes.angular_speed[row] > 0 else "\nbackward") if turning else ""
-        labels.append(_speed_label(f"mode {modes.number[row]}{way}", float(modes.angular_speed[row])))
+        rates.append(float(found.angular_speed[row]))
+        way = ("\nforward" if rates[-1] > 0 else "\nbackward") if found.has_momentum else ""
+        names.append(f"mode {found.number[row]}{way}")
+    labels = [straight.said, *with_speeds(names, rates, units)]
     columns = len(labels) + (not len(rows))
     aside = max(0.0, straight.reach() + 1.1 - SPACING)  # so that the names do not reach the first shape
     ax = axes_or_new(ax, _width(labels, columns), 6.0)
@@ -305,10 +299,10 @@ def _beside(modes: Modes, ax: Axes | None, which: Iterable[int] | None, carried:
         straight.links(ax, ticks[1] + carried.offset / most, CARRIED)
         ax.plot([ticks[1], ticks[1] + carried.support_radius / most], [0.0, 0.0], **ARM)
     for row, at in zip(rows, ticks[before:], strict=True):
-        _draw_mode(ax, modes, straight, int(row), at)
+        _draw_mode(ax, found, straight, int(row), at)
     if not len(rows):
-        rate = digits(modes.other.growth_rate.max(initial=0.0), 4)
-        said = f"no steady\nmotion:\ngrows as\nexp({rate} t),\nt in s"
+        growth = digits(found.other.growth_rate.max(initial=0.0), 4)
+        said = f"no steady\nmotion:\ngrows as\nexp({growth} t),\nt in s"
         ax.text(ticks[-1] + SPACING, float(straight.level.mean()), said, ha="center", va="center")
     ax.set_xticks(ticks, labels, fontsize="small")
     ax.set_xlim(-SPACING / 2, aside + SPACING * (columns - 0.5))
@@ -322,14 +316,9 @@ def _beside(modes: Modes, ax: Axes | None, which: Iterable[int] | None, carried:
 
 
 def _width(labels: list[str], columns: int) -> float:
-    """Inches of a figure whose labels do not meet: no more than `WIDEST` where these are short."""
+    """Return the inches of a figure whose labels do not meet: at most `WIDEST` if they are short."""
     longest = max([len(line) for label in labels for line in label.splitlines()])
     return max(min(1.2 + COLUMN * columns, WIDEST), 0.9 + LETTER * (longest + 1) * columns)
-
-
-def _speed_label(name: str, speed: float) -> str:
-    units = {"rad/s": speed, "rpm": speed * 30 / np.pi, "s": 2 * np.pi / abs(speed)}
-    return "\n".join([name, *[f"{number:#.4g}".removesuffix(".") + f" {unit}" for unit, number in units.items()]])
 
 
 def _draw_mode(ax: Axes, modes: Modes, straight: Straight, row: int, axis: float) -> None:
@@ -342,9 +331,9 @@ def _draw_mode(ax: Axes, modes: Modes, straight: Straight, row: int, axis: float
     straight.links(ax, axis + shape, colour, f"mode {modes.number[row]}")
     nodes = modes.nodes[row]
     if nodes.size <= MOST_PINS_AS_DOTS and not straight.inverted.any():
-        places = nodes if system._is_held else straight.level[0] - nodes
+        levels = nodes if system._is_held else straight.level[0] - nodes
         rings: dict[str, Any] = {"markersize": 7.0, "markerfacecolor": "white", "markeredgecolor": "black", "zorder": 3}
-        ax.plot(np.full(nodes.size, axis), places, linestyle="none", marker="o", **rings)
+        ax.plot(np.full(nodes.size, axis), levels, linestyle="none", marker="o", **rings)
     if system._support is not None and np.isfinite(system._support.stiffness):
         ax.plot([axis, axis + shape[-1]], [0.0, 0.0], color="0.3", linewidth=1.0, zorder=3)
         ax.plot(axis + shape[-1], 0.0, marker="s", **{**SUPPORT, "markersize": 6.0})
@@ -352,31 +341,32 @@ def _draw_mode(ax: Axes, modes: Modes, straight: Straight, row: int, axis: float
         straight.supports(ax, axis)
 
 
-def plot_carried(found: Response, ax: Axes | None, pins: list[int]) -> Axes:
-    """The response at one speed as a shape, the support on its circle."""
+def plot_carried(found: Response, ax: Axes | None, pins: list[int], unit: SpeedUnit) -> Axes:
+    """Draw the response at one speed as a shape, with the support on its circle."""
     straight = Straight(found.system)
-    offset = dict(zip(np.atleast_1d(found.pins).tolist(), found.offset.reshape(-1).tolist(), strict=True))
+    across = np.full(straight.level.size, np.nan)
+    available = np.atleast_1d(found.pins)
+    drawn = np.isin(available, pins)
+    across[available[drawn]] = found.offset.reshape(-1)[drawn]
     ax = beside_at_rest(found.system, ax, 5.0, 6.0)
     straight.axis(ax, 0.0)
-    places = range(found.system.size + 1)
-    across = np.array([offset.get(pin, np.nan) if pin in pins else np.nan for pin in places])
-    if len(pins) == straight.level.size:
+    if len(pins) == across.size:
         straight.links(ax, across, CARRIED)
     else:
         ax.plot(across, straight.level, "o", color=CARRIED)
     ax.plot([0.0, found.support_radius], [0.0, 0.0], **ARM)
     straight.finish(ax, bodies=False)
-    ax.set_xlabel(f"offset from the axis (m) at {digits(found.angular_speed.item(), 4)} rad/s")
+    ax.set_xlabel(f"offset from the axis (m) at {unit.text(found.angular_speed.item())}")
     return ax
 
 
 def _draw_support(support: Support, ax: Axes, straight: Straight, across: float) -> None:
-    """What holds the uppermost pin: a firm point, a spring, an arm."""
+    """Draw the support of the uppermost pin: a firm point, a spring, an arm."""
     level = straight.level
     yields = bool(np.isfinite(support.stiffness))
     wall = -0.65 if support.radius and yields else -1.0  # the spring starts where the arm ends
     if support.radius:
-        ax.plot([-1.0, -1.0], [level.max(), level.min()], color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
+        ax.plot([-1.0, -1.0], [level.max(), level.min()], **AXIS)
         ax.plot([-1.0, wall if yields else across], [0.0, 0.0], **ARM)
     if yields:
         tall = np.ptp(level)

@@ -44,7 +44,7 @@ def whirling(axes: Axes, offset: Any, depth: Any, **line: Any) -> None:
 
 
 def picture() -> tuple[Figure, Axes]:
-    """A small figure of pyplot for one object."""
+    """Return a small figure of pyplot, and its axes, for a drawing of one object."""
     return plt.subplots(figsize=(4.8, 3.4), layout="constrained")
 
 
@@ -71,6 +71,6 @@ def legend_below(axes: Axes, **more: Any) -> None:
 
 
 def save(figure: Figure, name: str) -> None:
-    """Write the picture into the current folder."""
+    """Write the picture as an .svg file into the current folder."""
     figure.savefig(f"{name}.svg", metadata={"Date": None})  # the same picture gives the same file
     print(f"wrote {name}.svg")

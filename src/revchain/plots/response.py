@@ -4,27 +4,29 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..closed_forms.table import described
-from ..systems.numbers import Floats, boolean, integer, listed, word
+from ..systems.extras import require
+from ..systems.numbers import Whole, boolean, word
 from .modes import Straight, beside_at_rest, plot_carried
-from .style import MOST_PINS_AS_DOTS, legend_outside, thinned
+from .style import AXIS, MOST_PINS_AS_DOTS, SpeedUnit, legend_outside, pin_name, pins_among, thinned
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from ..results.motions import Response, Swing
 
-MOST_CURVES = 4  # of pins, unless asked
+MOST_CURVES = 4  # of pins, unless the caller chooses them
 MOST_MOMENTS = 9  # in a picture of shapes
 
 
 @described(bound=True)
 def plot_response(
-    found: Response, ax: Axes | None = None, pins: Iterable[int] | None = None, *, resonances: bool = True
+    found: Response, ax: Axes | None = None, pins: Iterable[int] | None = None, *, resonances: bool = True,
+    speed: str = "rad/s",
 ) -> Axes:
     """Draw the distances of pins from the axis against the speed, on a logarithmic scale.
 
@@ -38,68 +40,55 @@ def plot_response(
 
     >>> import numpy as np
     >>> chain = rc.Chain.uniform_rods(20, length=0.36)
-    >>> ax = rc.response(chain, angular_speed=np.linspace(1.0, 30.0, 400)).plot()
+    >>> ax = rc.response(chain, angular_speed=np.linspace(1.0, 30.0, 400)).plot(speed="Hz")
     >>> ax.get_xlabel()
-    'angular speed (rad/s)'
+    'frequency (Hz)'
     """
-    speed = found.angular_speed.reshape(-1)
+    place = "revchain.Response.plot"
+    unit, rate = SpeedUnit(place, speed), found.angular_speed.reshape(-1)
     available = np.atleast_1d(found.pins).tolist()
-    if speed.size == 0:
-        raise ValueError("Response.plot: the response has no speed to draw; it needs at least one")
-    if speed.size == 1:
-        return plot_carried(found, ax, available if pins is None else _known(pins, available))
-    order = np.argsort(speed)
-    speed = speed[order]
-    offset = found.offset.reshape(speed.size, -1)[order]
-    chosen = _spread(available, found.system.size) if pins is None else _known(pins, available)
+    if rate.size == 0:
+        raise ValueError(f"{place}: the response has no speed to draw; it needs at least one")
+    if rate.size == 1:
+        return plot_carried(found, ax, available if pins is None else pins_among(place, pins, available), unit)
+    chosen = _spread(available, found.system.size) if pins is None else pins_among(place, pins, available)
+    order = np.argsort(rate)
+    rate, offset = rate[order], found.offset.reshape(rate.size, -1)[order]
+    if unit.unit == "s" and rate[0] < 0 < rate[-1]:  # the curves break at rest, the period of which is infinite
+        rest = np.searchsorted(rate, 0.0)
+        rate, offset = np.insert(rate, rest, 0.0), np.insert(offset, rest, np.nan, axis=0)
     ax = beside_at_rest(found.system, ax, 7.0, 4.5)
     for number, pin in enumerate(chosen):
         y = offset[:, available.index(pin)]
-        name = "free end" if pin == 0 else f"pin {pin}"
-        size = np.abs(y)
         for side, style in ((1, "-"), (-1, "--")):
-            ax.plot(
-                speed,
-                np.where(_with_neighbours(np.sign(y) == side), size, np.nan),
-                style,
-                color=f"C{number % 10}",
-                linewidth=1.4,
-                label=name if side == 1 else None,
-            )
+            size = np.where(_with_neighbours(np.sign(y) == side), np.abs(y), np.nan)
+            label = pin_name(pin) if side == 1 else None
+            ax.plot(unit.of(rate), size, style, color=f"C{number % 10}", linewidth=1.4, label=label)
     ax.axhline(found.support_radius, color="0.6", linewidth=0.8, zorder=0)
-    for at in found.whirl_speeds if boolean("Response.plot", "resonances", resonances) else ():
-        ax.axvline(at, color="0.6", linestyle="-.", linewidth=0.9, zorder=0)
+    for at in found.whirl_speeds if boolean(place, "resonances", resonances) else ():
+        ax.axvline(unit.of(at), **{**AXIS, "zorder": 0})
     ax.set_yscale("log")
     finite = np.abs(offset[np.isfinite(offset) & (offset != 0)])
     if finite.size:
         top = finite.max()
         ax.set_ylim(max(finite.min(), 1e-6 * min(top, found.support_radius)) / 2, 2 * top)
-    ax.set(xlabel="angular speed (rad/s)", ylabel="distance from axis (m); grey: support")
+    ax.set(xlabel=unit.label, ylabel="distance from axis (m); grey: support")
     ax.plot([], [], "--", color="0.3", linewidth=1.4, label="opposite to\nthe support")
     legend_outside(ax)
     return ax
 
 
 def _with_neighbours(yes: np.ndarray[tuple[int], np.dtype[np.bool_]]) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-    """Also the next place: curves then meet where a pin crosses the axis or the chain a resonance."""
+    """Return `yes` with each next point added: curves then meet where a pin crosses the axis, and at resonances."""
     wide = yes.copy()
     wide[1:] |= yes[:-1]
     return wide
 
 
 def _spread(available: list[int], links: int) -> list[int]:
-    """The lowest pins, and some more evenly up the chain; not the support."""
+    """Return the lowest of the pins, and some others evenly up the chain; not the support."""
     free = [pin for pin in sorted(set(available)) if pin < links] or available
-    places = np.linspace(0, len(free), min(MOST_CURVES, len(free)), endpoint=False).astype(int)
-    return [free[place] for place in places]
-
-
-def _known(pins: Iterable[int], available: list[int]) -> list[int]:
-    numbers = [integer("Response.plot", "pins", pin) for pin in listed("Response.plot", "pins", pins)]
-    for number in numbers:
-        if number not in available:
-            raise ValueError(f"Response.plot: pins must be among those of this result, got {number}")
-    return numbers
+    return [free[k] for k in np.linspace(0, len(free), min(MOST_CURVES, len(free)), endpoint=False).astype(int)]
 
 
 @described(bound=True)
@@ -122,85 +111,50 @@ def plot_swing(
     >>> ax.get_xlabel()
     'time (s)'
     """
-    place, system, cord = "Swing.plot", found.system, found.arc_length is not None
-    if found.offset.dtype.kind == "c":
-        word(place, "kind", "path" if kind is None else kind, ("path", "time"))
-        return _plot_turning(found, ax, "path" if kind is None else kind, _pins_of(place, "pins", pins, found.offset.shape[1]))
-    word(place, "kind", "shapes" if kind is None else kind, ("shapes", "time"))
-    depth = system.length - found.arc_length if cord else Straight(system).level
-    chosen = _pins_of(place, "pins", pins, depth.size)
-    return _plot_plane(found, ax, "shapes" if kind is None else kind, chosen, depth)
-
-
-def _plot_turning(found: Swing, ax: Axes | None, kind: str, chosen: list[int]) -> Axes:
-    """Paths of pins seen from above, or their offsets against time."""
-    ax = beside_at_rest(found.system, ax, *((7.0, 4.0) if kind == "time" else (5.0, 5.0)))
-    order = np.argsort(found.time)
-    for number, column in enumerate(chosen):
-        at = found.offset[order, column]
-        kept = thinned(np.abs(at))
-        style: dict[str, Any] = {"color": f"C{number % 10}", "linewidth": 1.2}
-        name = "free end" if column == 0 else f"pin {column}"
-        if kind == "path":
-            ax.plot(at.real[kept], at.imag[kept], label=name, **style)
-        else:
-            ax.plot(found.time[order][kept], at.real[kept], label=name, **style)
-            ax.plot(found.time[order][kept], at.imag[kept], linestyle="--", **style)
+    place, turns = "revchain.Swing.plot", found.offset.dtype.kind == "c"
+    kinds = ("path", "time") if turns else ("shapes", "time")
+    kind = word(place, "kind", kinds[0] if kind is None else kind, kinds)
+    chosen, order = pins_among(place, pins, range(found.offset.shape[1])), np.argsort(found.time)
+    ax = beside_at_rest(found.system, ax, *{"time": (7.0, 4.0), "path": (5.0, 5.0), "shapes": (5.0, 6.0)}[kind])
+    if kind == "shapes":
+        return _draw_moments(found, ax, order)
+    arc, time = found.arc_length, found.time[order]
+    for number, pin in enumerate(chosen):
+        at, colour = found.offset[order, pin], f"C{number % 10}"
+        label = pin_name(pin) if arc is None or not arc[pin] else f"point {pin}"
+        drawn = thinned(np.abs(at) if turns else at)
+        x, y = (at.real, at.imag) if kind == "path" else (time, at.real)
+        ax.plot(x[drawn], y[drawn], color=colour, linewidth=1.2, label=label)
+        if turns and kind == "time":
+            ax.plot(time[drawn], at.imag[drawn], "--", color=colour, linewidth=1.2)
     if kind == "path":
-        ax.set_aspect("equal")
         ax.plot(0.0, 0.0, marker="+", color="0.4", zorder=0)
-        ax.set(xlabel="x (m)", ylabel="y (m)")
-    else:
+        ax.set(xlabel="x (m)", ylabel="y (m)", aspect="equal")
+    elif turns:
         ax.set(xlabel="time (s)", ylabel="offset (m): x solid, y dashed")
+    else:
+        ax.axhline(0.0, **{**AXIS, "zorder": 0})
+        ax.set(xlabel="time (s)", ylabel="distance from axis (m)")
     if chosen:
         legend_outside(ax)
     return ax
 
 
-def _pins_of(place: str, what: str, which: Iterable[int], count: int) -> list[int]:
-    chosen = [integer(place, what, number) for number in listed(place, what, which)]
-    for number in chosen:
-        if not 0 <= number < count:
-            raise ValueError(f"{place}: {what} must be numbers from 0 to {count - 1}, got {number}")
-    return chosen
-
-
-def _plot_plane(found: Swing, ax: Axes | None, kind: str, chosen: list[int], depth: Floats) -> Axes:
-    """Offsets of pins or places, at these depths, at the times asked or against time."""
-    what = "pin" if found.arc_length is None else "place"
-    ax = beside_at_rest(found.system, ax, *((7.0, 4.0) if kind == "time" else (5.0, 6.0)))
-    order = np.argsort(found.time)
-    if kind == "time":
-        for number, column in enumerate(chosen):
-            y = found.offset[order, column]
-            kept = thinned(y)
-            name = "free end" if column == 0 and depth[0] == depth.max() else f"{what} {column}"
-            ax.plot(found.time[order][kept], y[kept], color=f"C{number % 10}", linewidth=1.2, label=name)
-        ax.axhline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=0)
-        ax.set(xlabel="time (s)", ylabel="distance from axis (m)")
-        if chosen:
-            legend_outside(ax)
-        return ax
-    from ..systems.extras import require
-
+def _draw_moments(found: Swing, ax: Axes, order: Whole) -> Axes:
+    """Draw the shapes of a swing in a plane at some of its times."""
+    linked = found.arc_length is None
+    depth = Straight(found.system).level if linked else found.system.length - found.arc_length
     colours = require("matplotlib", "plot", "plotting").colormaps["viridis"]
-    marker = "o" if what == "pin" and depth.size <= MOST_PINS_AS_DOTS else ""
-    ax.axvline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
-    drawn = order[np.unique(np.linspace(0, order.size - 1, min(MOST_MOMENTS, order.size)).round().astype(int))]
-    for rank, row in enumerate(drawn):
-        kept = thinned(found.offset[row])
-        ax.plot(
-            found.offset[row][kept],
-            depth[kept],
-            color=colours(0.9 * rank / max(1, drawn.size - 1)),
-            linewidth=1.2,
-            marker=marker,
-            markersize=2.5,
-            label=f"{found.time[row]:.4g} s",
-        )
+    marker = "o" if linked and depth.size <= MOST_PINS_AS_DOTS else ""
+    ax.axvline(0.0, **AXIS)
+    moments = order[np.unique(np.linspace(0, order.size - 1, min(MOST_MOMENTS, order.size)).round().astype(int))]
+    for shade, row in zip(np.linspace(0.0, 0.9, moments.size), moments, strict=True):
+        drawn, label = thinned(found.offset[row]), f"{found.time[row]:.4g} s"
+        line = {"color": colours(shade), "linewidth": 1.2, "marker": marker, "markersize": 2.5, "label": label}
+        ax.plot(found.offset[row][drawn], depth[drawn], **line)
     ax.plot(0.0, 0.0, marker="v", color="black", markersize=7.0, zorder=4, clip_on=False)
     ax.set_ylim(1.03 * depth.max(), -0.03 * depth.max())
     ax.set(xlabel="distance from axis (m), not to scale", ylabel="depth below the support (m)")
-    if drawn.size:
-        legend_outside(ax, title=f"{drawn.size} of {order.size} times" if drawn.size < order.size else None)
+    if moments.size:
+        legend_outside(ax, title=f"{moments.size} of {order.size} times" if moments.size < order.size else None)
     return ax

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of steady shapes."""
+"""Pictures of steady shapes and of their branches."""
 
 from __future__ import annotations
 
@@ -9,50 +9,65 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..closed_forms.table import described
+from ..systems.numbers import word
 from .modes import beside_at_rest
-from .style import MOST_PINS_AS_DOTS, half_waves_style, keep_room, legend_outside, thinned
+from .style import AXIS, MOST_PINS_AS_DOTS, SpeedUnit, half_waves_style, keep_room, legend_outside, thinned
 
 if TYPE_CHECKING:
+    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
 
+    from ..results.branches import Branch, Branches
     from ..results.shapes import SteadyShape, SteadyShapes
 
-
-def _fitting_height(shapes: Sequence[SteadyShape]) -> float:
-    """Inches of a figure for curves of these proportions, some 5 inches wide at most."""
-    wide = max((np.ptp([0.0, *shape.offset]) for shape in shapes), default=0.0)
-    tall = max((np.ptp([0.0, *shape.height]) for shape in shapes), default=1.0)
-    return float(np.clip(1.2 + 5.0 * tall / wide, 3.4, 6.0)) if wide else 6.0
+QUANTITIES = {
+    "lowest_inclination": "inclination of the lowest link (degrees)",
+    "tip_radius": "tip radius (m)",
+    "largest_offset": "largest distance from axis (m)",
+    "top_tension": "tension at the upper end (N)",
+    "moment_of_inertia": "moment of inertia (kg m^2)",
+    "effective_energy": "effective energy (J)",
+}
+BY_WEIGHT = {
+    "top_tension": "tension at the upper end (unit of the weights)",
+    "moment_of_inertia": "moment of inertia (weight x length^2)",
+    "effective_energy": "effective energy (weight x length)",
+}
+CLOSEST = 0.03  # of the width, between births whose speeds are written out
 
 
 @described(bound=True)
-def plot_shape(shape: SteadyShape, ax: Axes | None = None) -> Axes:
+def plot_shape(shape: SteadyShape, ax: Axes | None = None, *, speed: str = "rad/s") -> Axes:
     """Draw the shape, true to scale.
 
     >>> ax = rc.steady_shapes(rc.Chain.uniform_plummets(3, length=1.0), conical_height=0.05)[0].plot()
     >>> ax.get_xlabel()
     'distance from axis (m)'
     """
-    return _curves([shape], ax)
+    at = SpeedUnit("revchain.SteadyShape.plot", speed).text(shape.angular_speed)
+    return _draw_shapes([shape], ax, f"\n{at}")
 
 
 @described(bound=True)
-def plot_shapes(shapes: SteadyShapes, ax: Axes | None = None) -> Axes:
+def plot_shapes(shapes: SteadyShapes, ax: Axes | None = None, *, speed: str = "rad/s") -> Axes:
     """Draw all shapes in one picture, true to scale, coloured by half waves.
 
-    >>> ax = rc.steady_shapes(rc.Chain.uniform_plummets(3, length=1.0), conical_height=0.02).plot()
-    >>> ax.get_title()
-    '5 hanging shapes, proved complete'
+    >>> ax = rc.steady_shapes(rc.Chain.uniform_plummets(3, length=1.0), conical_height=0.02).plot(speed="rpm")
+    >>> ax.get_title(), ax.get_legend().get_title().get_text()
+    ('5 hanging shapes, proved complete', 'at 211.5 rpm')
     """
-    ax = _curves(shapes, ax)
+    unit = SpeedUnit("revchain.SteadyShapes.plot", speed)
+    ax = _draw_shapes(shapes, ax)
     ax.set_title(shapes._how_many())
+    if shapes and shapes.angular_speed is not None:
+        legend_outside(ax, title=f"at {unit.text(shapes.angular_speed)}")
     return ax
 
 
-def _curves(shapes: Sequence[SteadyShape], ax: Axes | None) -> Axes:
-    """A curve for each shape; dots mark the pins of links, of cords the free end."""
+def _draw_shapes(shapes: Sequence[SteadyShape], ax: Axes | None, more: str = "") -> Axes:
+    """Draw a curve for each shape; dots mark the pins of links, of cords the free end. `more` ends each label."""
     ax = beside_at_rest(shapes[0].system if len(shapes) else None, ax, 6.2, _fitting_height(shapes))
-    ax.axvline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
+    ax.axvline(0.0, **AXIS)
     named: set[int] = set()
     origin = "support"
     for shape in shapes:
@@ -60,8 +75,9 @@ def _curves(shapes: Sequence[SteadyShape], ax: Axes | None) -> Axes:
         colour, label = half_waves_style(shape.half_waves, named)
         linked = not hasattr(shape, "arc_length")
         marker = "o" if linked and x.size <= MOST_PINS_AS_DOTS else ""
-        kept = thinned(x) if linked else slice(None)
-        ax.plot(x[kept], z[kept], color=colour, linewidth=1.4, marker=marker, markersize=3.0, label=label)
+        drawn = thinned(x) if linked else slice(None)
+        label = label and label + more
+        ax.plot(x[drawn], z[drawn], color=colour, linewidth=1.4, marker=marker, markersize=3.0, label=label)
         if hasattr(shape, "span"):
             origin = "lower end"
             ax.plot(x[[0, -1]], [0.0, shape.span], color="black", marker="o", linestyle="none", markersize=6.0)
@@ -77,3 +93,107 @@ def _curves(shapes: Sequence[SteadyShape], ax: Axes | None) -> Axes:
     if named:
         legend_outside(ax)
     return ax
+
+
+def _fitting_height(shapes: Sequence[SteadyShape]) -> float:
+    """Return the height in inches of a figure for curves of these proportions, some 5 inches wide at most."""
+    wide = max((np.ptp([0.0, *shape.offset]) for shape in shapes), default=0.0)
+    tall = max((np.ptp([0.0, *shape.height]) for shape in shapes), default=1.0)
+    return float(np.clip(1.2 + 5.0 * tall / wide, 3.4, 6.0)) if wide else 6.0
+
+
+def words_of(quantity: str, by_mass: bool) -> str:
+    """Return the label of an axis, with the unit that the quantity has for systems given by mass or by weight."""
+    return QUANTITIES[quantity] if by_mass else BY_WEIGHT.get(quantity, QUANTITIES[quantity])
+
+
+@described(bound=True)
+def plot_branch(branch: Branch, ax: Axes | None = None, *, quantity: str | None = None, speed: str = "rad/s") -> Axes:
+    """Draw a quantity of the branch against the speed; folds are marked.
+
+    quantity: Quantity to draw: ``lowest_inclination`` (in degrees; of hanging systems unless given),
+        ``tip_radius``, ``largest_offset`` (of held systems unless given), ``top_tension``, ``moment_of_inertia`` or
+        ``effective_energy``.
+    raises: If `quantity` is another word, or one that the system does not have.
+
+    >>> ax = rc.branch(rc.Chain.uniform_plummets(2, length=2.0), 1, min_conical_height=0.1).plot()
+    >>> ax.get_ylabel()
+    'inclination of the lowest link (degrees)'
+    """
+    return _draw_branches([branch], ax, quantity, speed, "revchain.Branch.plot")
+
+
+@described(bound=True)
+def plot_branches(
+    branches: Branches, ax: Axes | None = None, *, quantity: str | None = None, speed: str = "rad/s"
+) -> Axes:
+    """Draw the bifurcation diagram: a quantity of each branch against the speed.
+
+    quantity: Quantity to draw, as in `Branch.plot`.
+    returns: The drawing. Colours show half waves, hollow marks folds. Isolated branches are dashed, with the speed
+        at which each starts. The title says whether the diagram is `complete`.
+    raises: If `quantity` is another word, or one that the system does not have.
+
+    >>> ax = rc.branches(rc.Chain.uniform_plummets(3, length=3.0), min_conical_height=0.04).plot()
+    >>> ax.get_xlabel()
+    'speed (rad/s)'
+    """
+    ax = _draw_branches(branches, ax, quantity, speed, "revchain.Branches.plot")
+    if not branches:
+        ax.set_title("no shape at or above this conical height")
+    elif hasattr(branches, "complete"):
+        ax.set_title("all branches: proved complete" if branches.complete else "branches found: not proved complete")
+    return ax
+
+
+def _draw_branches(branches: Sequence[Branch], ax: Axes | None, quantity: str | None, speed: str, place: str) -> Axes:
+    """Draw a curve for each branch, and mark births and folds."""
+    unit = SpeedUnit(place, speed)
+    available = [name for name in QUANTITIES if not len(branches) or hasattr(branches[0], name)]
+    if quantity is None:
+        quantity = "largest_offset" if len(branches) and "tip_radius" not in available else "lowest_inclination"
+    word(place, "quantity", quantity, available)
+    ax = beside_at_rest(branches[0].system if len(branches) else None, ax, 7.2, 5.0)
+    named: set[int] = set()
+    curves: dict[Artist, int] = {}
+    births: list[tuple[float, str]] = []
+    for branch in branches:
+        waves = int(branch.half_waves[0])
+        x, y = unit.of(branch.angular_speed), getattr(branch, quantity)
+        if quantity.endswith("inclination"):
+            y = np.degrees(y)
+        colour, label = half_waves_style(waves, named)
+        style = "-" if branch.mode is not None else "--"
+        curves[ax.plot(x, y, style, color=colour, linewidth=1.6, label=label)[0]] = waves
+        if getattr(branch, "birth", "fold") != "fold":
+            ax.plot(x[0], y[0], "o", color=colour, markersize=5.0)
+        folds = branch.folds  # hollow marks, which hide no loop however small
+        ax.plot(x[folds], y[folds], "D", color=colour, markersize=5.0, markerfacecolor="none", zorder=3)
+        if branch.mode is None and folds.size:
+            births.append((float(unit.of(branch.angular_speed[folds].min())), colour))
+    _mark_births(ax, births)
+    ax.set(xlabel=unit.label, ylabel=words_of(quantity, all(branch.system.by_mass for branch in branches)))
+    ax.grid(color="0.9", linewidth=0.6)
+    ax.set_axisbelow(True)
+    if named:
+        handles, labels = ax.get_legend_handles_labels()
+        order = sorted(range(len(labels)), key=lambda i: curves.get(handles[i], np.inf))  # those of the caller are last
+        legend_outside(ax, handles=[handles[i] for i in order], labels=[labels[i] for i in order])
+    return ax
+
+
+def _mark_births(ax: Axes, births: list[tuple[float, str]]) -> None:
+    """Draw dotted lines at the speeds where pairs appear; the numbers are above the frame, where they hide no loop."""
+    left, right = ax.get_xlim()
+    last = -np.inf
+    ticks: list[float] = []
+    for at, colour in sorted(births):
+        ax.axvline(at, color=colour, linestyle=":", linewidth=0.8, zorder=1)
+        if at - last >= CLOSEST * (right - left):
+            ticks.append(at)
+            last = at
+    if not ticks:
+        return
+    above = ax.secondary_xaxis("top")
+    above.set_xticks(ticks, [f"{at:.5g}" for at in ticks], rotation=90, fontsize="small")
+    above.set_xlabel("pairs appear at", fontsize="small")

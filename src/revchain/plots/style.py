@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Collection, Iterable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..systems.extras import require
-from ..systems.numbers import Numbers, shown
+from ..systems.numbers import Numbers, integer, listed, shown, word
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -29,13 +30,74 @@ STYLE: dict[Any, Any] = {
 }
 """For `matplotlib.rcParams.update`: letters of 10 points, the smallest of 8.3, and the colours of `PALETTE`."""
 
+AXIS: dict[str, Any] = {"color": "0.6", "linestyle": "-.", "linewidth": 0.9, "zorder": 1}
+"""The line of the axis about which a system turns."""
+
+SPEED_UNITS = {  # what is measured in each unit, and the number of the unit for 1 rad/s
+    "rad/s": ("speed", 1.0),
+    "rpm": ("speed", 30 / np.pi),
+    "Hz": ("frequency", 0.5 / np.pi),
+    "s": ("period", 2 * np.pi),
+}
 WIDEST = 8.0  # inches, of a new figure
 MOST_PINS_AS_DOTS = 40
 MOST_POINTS = 2000  # per curve: about the pixels of a large picture
 
 
+class SpeedUnit:
+    """The unit in which a picture shows speeds, which are given to it in rad/s."""
+
+    def __init__(self, place: str, unit: str) -> None:
+        self.unit = word(place, "speed", unit, SPEED_UNITS)
+        self.quantity, self.per_radian = SPEED_UNITS[unit]
+
+    @property
+    def label(self) -> str:
+        """The label of an axis of speeds, such as ``speed (rpm)``."""
+        return f"{self.quantity} ({self.unit})"
+
+    def of(self, speed: Any) -> Any:
+        """Speeds in this unit. Those of backward rotation are negative, also as periods; that of rest is infinite."""
+        if self.unit != "s":
+            return speed * self.per_radian
+        with np.errstate(divide="ignore"):
+            return np.divide(self.per_radian, speed)
+
+    def text(self, speed: float) -> str:
+        """A speed with its unit, such as ``36.99 rpm``; a period without the sign of its rotation."""
+        number = self.of(speed)
+        return f"{abs(number) if self.unit == 's' else number:#.4g}".removesuffix(".") + f" {self.unit}"
+
+
+CAPTION_UNITS = [SpeedUnit("captions", unit) for unit in ("rad/s", "rpm")]
+ALL_BUT_HERTZ = [*CAPTION_UNITS, SpeedUnit("captions", "s")]
+
+
+def with_speeds(names: Iterable[str], speeds: Iterable[float], units: list[SpeedUnit]) -> list[str]:
+    """Return labels with a name and, on lines of their own, a speed in each unit."""
+    return ["\n".join([name, *[unit.text(at) for unit in units]]) for name, at in zip(names, speeds, strict=True)]
+
+
+def pins_among(place: str, pins: Iterable[int], available: Collection[int]) -> list[int]:
+    """The numbers of the pins to draw; a ValueError if one of them is not available."""
+    numbers = [integer(place, "pins", pin) for pin in listed(place, "pins", pins)]
+    for number in numbers:
+        if number not in available:
+            known = f"numbers from {min(available)} to {max(available)}"
+            if len(available) <= max(available) - min(available):
+                some = ", ".join(map(str, list(available)[:9])) + ", ..." * (len(available) > 9)
+                known = f"{some}, those of this result"
+            raise ValueError(f"{place}: pins must be {known}, got {number}")
+    return numbers
+
+
+def pin_name(pin: int) -> str:
+    """Return the label of the curve of a pin; pin 0 is the free end."""
+    return f"pin {pin}" if pin else "free end"
+
+
 def new_figure(width: float, height: float) -> Figure:
-    """A figure: pyplot's where the caller uses pyplot, so that it shows; else a free one."""
+    """Return a new figure: one of pyplot if the caller uses pyplot, which then shows it; else a free one."""
     free = require("matplotlib.figure", "plot", "plotting").Figure
     pyplot = sys.modules.get("matplotlib.pyplot")
     figure: Figure = (pyplot.figure if pyplot is not None else free)(figsize=(width, height), layout="constrained")
@@ -43,13 +105,13 @@ def new_figure(width: float, height: float) -> Figure:
 
 
 def axes_or_new(ax: Axes | None, width: float, height: float) -> Axes:
-    """The axes of the caller, or new ones on a figure of their own."""
+    """Return the axes of the caller, or new axes on a figure of their own."""
     axes: Axes = new_figure(width, height).add_subplot() if ax is None else checked_axes(ax)
     return axes
 
 
 def checked_axes(ax: Axes) -> Axes:
-    """`ax`; a TypeError unless it is axes of matplotlib."""
+    """Return `ax`; raise a TypeError unless they are axes of matplotlib."""
     kind: type[Axes] = require("matplotlib.axes", "plot", "plotting").Axes
     if not isinstance(ax, kind):
         raise TypeError(f"plot: ax must be axes of matplotlib, got {shown(ax)}")
@@ -57,29 +119,29 @@ def checked_axes(ax: Axes) -> Axes:
 
 
 def legend_outside(ax: Axes, **more: Any) -> None:
-    """A legend to the right of the frame, where it covers no curve."""
+    """Write the legend to the right of the frame, where it covers no curve."""
     ax.legend(**{"loc": "upper left", "bbox_to_anchor": (1.02, 1.0), "borderaxespad": 0.0, "frameon": False, **more})
 
 
 def plain(text: str) -> str:
-    """`text` as matplotlib draws it letter by letter: what stands between two $ would be mathematics."""
+    """Return `text` for matplotlib, which would read what is between two $ as mathematics."""
     return text.replace("$", r"\$")
 
 
 def thinned(curve: Numbers) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
-    """Indices of the points worth drawing: the ends, and the extremes of every stretch."""
+    """Return indices of the points that a picture needs: the ends, and the extremes of every stretch."""
     if curve.size <= MOST_POINTS:
         return np.arange(curve.size)
     edges = np.linspace(0, curve.size, MOST_POINTS // 2 + 1).astype(np.intp)
-    kept = {0, curve.size - 1}
+    chosen = {0, curve.size - 1}
     for begin, end in zip(edges[:-1], edges[1:], strict=True):
         stretch = curve[begin:end]
-        kept.update((int(begin + stretch.argmin()), int(begin + stretch.argmax())))
-    return np.array(sorted(kept), dtype=np.intp)
+        chosen.update((int(begin + stretch.argmin()), int(begin + stretch.argmax())))
+    return np.array(sorted(chosen), dtype=np.intp)
 
 
 def keep_room(ax: Axes, share: float = 0.35) -> None:
-    """Widen a drawing in true proportions, all but flat or all but straight down, until it can be read."""
+    """Widen a drawing in true proportions that is almost flat or almost vertical, until it can be read."""
     (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
     wide, tall = right - left, high - low
     if tall < share * wide:
@@ -89,7 +151,10 @@ def keep_room(ax: Axes, share: float = 0.35) -> None:
 
 
 def half_waves_style(waves: int, named: set[int]) -> tuple[str, str | None]:
-    """Colour of a curve with so many half waves, and its label if none is in `named` yet, which grows by it."""
+    """Return the colour of a curve, and a label for the first curve with this number of half waves.
+
+    `named` holds the numbers that have a label, and gets this one.
+    """
     label = None if waves in named else f"{waves} half wave{'s' * (waves != 1)}"
     named.add(waves)
     return f"C{(waves - 1) % 10}", label

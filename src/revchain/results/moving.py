@@ -121,7 +121,9 @@ class Moving:
         >>> rc.modes(rc.Chain.uniform_rods(12, length=1.0), 3).show()
         a motion, which notebooks show
         """
-        shown: object = _motion().show_film(self, figures, time_scale, duration, height)
+        shown: object = _motion().show_film(
+            self, height, figures=figures, time_scale=time_scale, duration=duration
+        )
         return shown
 
     def to_glb(

@@ -4,7 +4,7 @@
 import numpy as np
 
 import revchain as rc
-from revchain.motion.staging import Asked, staged
+from revchain.motion.staging import Choices, staged
 
 CHAIN = rc.Chain(mass=[1.0, 2.0, 1.0], length=[0.5, 1.0, 0.7], names=["load", "$hook$", "</script>"])
 WHEELS = rc.Rig(
@@ -60,4 +60,4 @@ ALL = ONE | SEVERAL
 
 
 def film(result, figures=None, time_scale=None, duration=None, frames_per_second=25.0):
-    return staged(result, Asked("place", figures, time_scale, duration, frames_per_second))
+    return staged(result, Choices("place", frames_per_second, figures, time_scale, duration))
