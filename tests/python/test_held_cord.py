@@ -140,17 +140,6 @@ def test_many_links_tend_to_the_branch():
     assert many + (many - few) / 3 == pytest.approx(cord.moment_of_inertia, rel=1e-6)
 
 
-def test_stability():
-    chain = rc.Held(BOWED.system.chain(100), span=1.5)
-    for shape in rc.steady_shapes(BOWED, angular_speed=15.0, max_half_waves=2):
-        whole = shape.stability()
-        cut = rc.steady_shape(chain, mode=shape.half_waves, angular_speed=15.0).stability()
-        assert whole.verdict == cut.verdict
-        slow = [np.sort(np.abs(each.exponents.imag[each.exponents.imag > 0]))[:3] for each in (whole, cut)]
-        np.testing.assert_allclose(slow[0], slow[1], rtol=3e-3)
-        assert shape.stability(frame="driven").frame == "driven"
-
-
 @pytest.mark.parametrize("system", [BOWED.system, BOWED.system.chain(12)], ids=["cord", "chain"])
 def test_tuned_at_a_span(system):
     held = rc.Held(system, span=1.5)

@@ -152,6 +152,15 @@ NAMED = {
 }
 
 
+def four_plummets(seed):
+    rng = np.random.default_rng(seed)
+    masses, lengths = rng.uniform(0.5, 2.0, 4), rng.uniform(0.5, 1.5, 4)
+    return rc.Held(rc.Chain(mass=masses, length=lengths), span=rng.uniform(0.5, 0.9) * lengths.sum()), rng.uniform(5.0, 9.0)
+
+
+NAMED |= {f"four plummets, {seed}": four_plummets(seed) for seed in range(5)}
+
+
 @pytest.mark.parametrize("seed", range(1, 5))
 def test_random_systems(seed):
     tally = random_systems(60, seed)
