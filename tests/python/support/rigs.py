@@ -146,24 +146,6 @@ def agree_with_others(rig, found, tolerance=1e-14):
         assert abs(found.other.growth_rate[i] - rate) <= 1e-12 * rate
 
 
-def pivots(rig, speeds):
-    """Negative pivots of K + n P - n^2 M / g, speeds side by side in 80-bit floats, link by link."""
-    ld = np.longdouble
-    n, given = np.asarray(speeds, dtype=ld), columns(rig)
-    weight, a, h, rho, p = (x.astype(ld) for x in (given.w, given.a, given.h, given.rho, given.p))
-    below, s, mu = ld(0), np.zeros_like(n), n * n / ld(G)
-    negative = np.zeros(n.shape, dtype=int)
-    for m in range(len(rig)):
-        k = ((weight[m] * h[m] + a[m] * below) + n * p[m]) / a[m] ** 2
-        q = weight[m] * (h[m] ** 2 + rho[m] ** 2) / a[m] ** 2
-        r = weight[m] * ((a[m] - h[m]) ** 2 + rho[m] ** 2) / a[m] ** 2
-        d = s + k - mu * q
-        negative += d < 0
-        s = ((k - mu * r) * s - mu * (k * weight[m] - mu * (weight[m] * rho[m] / a[m]) ** 2)) / d
-        below += weight[m]
-    return negative
-
-
 class Motion:
     """Unit vectors e of the links, from upper to lower pin: kinetic energy is quadratic in their rates with constant
     coefficients, gravity is linear in them, and a wheel adds -p e x e'. The support may be carried, or slide;
