@@ -57,13 +57,6 @@ def test_modes_under_a_tension(tension):
     assert rc.explain(held, 2).chosen.name == m.method
 
 
-def test_many_links_tend_to_the_cord():
-    for held in (TAUT, STRING):
-        links = [rc.modes(rc.Held(ROPE.chain(n), tension=10.0, weightless=held.weightless), 3).angular_speed for n in (50, 100)]
-        limit = links[1] + (links[1] - links[0]) / 3
-        np.testing.assert_allclose(limit, rc.modes(held, 3).angular_speed, rtol=2e-6)
-
-
 def test_without_gravity_it_is_a_string():
     for g in (G, 1.62):
         m = rc.modes(STRING, 5, gravity=g)
