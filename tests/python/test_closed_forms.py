@@ -427,7 +427,7 @@ def test_speeds_beyond_the_range_are_refused():
 @pytest.mark.parametrize("exponent", [-300, -40, 40, 300])
 def test_lengths_of_two_links_scale_exactly(exponent):
     f = 2.0**exponent
-    heights, larger = two_links.two_plummets(**named((1, 2, 3, 1))), two_links.two_plummets(**named((f, 2 * f, 3 * f, f)))
+    heights, larger = (two_links.two_plummets(**named(pair)) for pair in ((1, 2, 3, 1), (f, 2 * f, 3 * f, f)))
     assert (heights * f).tolist() == larger.tolist()
     plain, other = two_links.link_on_thread(2.0, 1.0, 0.7), two_links.link_on_thread(2 * f, f, 0.7 * f)
     assert (plain * f).tolist() == other.tolist()
@@ -511,14 +511,18 @@ def test_jacobi_far_out(u, moduli):
 # Shapes, numbers and refusals ----------------------------------------------------------------------------------------
 
 # A number that every function can take for an argument of that name.
-NUMBERS = dict(length=2.0, height=0.3, radius=0.1, arm=1.0, distance=1.2, span=1.0, pin=0.5, rod=1.0, thread=2.0, half_length=1.0)
-NUMBERS |= dict(x=0.5, weight_ratio=0.5, weight=1.0, stiffness=2.0, deflection=1e-6, centroid=0.5, radius_of_gyration=0.3)
-NUMBERS |= dict(upper_thread=1.0, lower_thread=1.0, standing_weight=1.0, hung_weight=3.0, lower_weight=1.0, lower_centroid=0.75)
-NUMBERS |= dict(lower_radius_of_gyration=0.4, upper_weight=3.0, upper_length=0.25, upper_centroid=0.125)
-NUMBERS |= dict(upper_radius_of_gyration=0.45, bell_weight=1.0, bell_centroid=0.2, bell_radius_of_gyration=0.5)
-NUMBERS |= dict(clapper_weight=1.0, clapper_centroid=0.3, clapper_radius_of_gyration=0.1)
-NUMBERS |= dict(gravity=9.0, period=9.0, angular_speed=1.0, seconds_pendulum=1.0, speed=1.0, tension=1.0)
-FORMS = [(attrgetter(name)(rc), {each: NUMBERS[each] for each in form.signature.parameters}) for name, form in table.FORMS.items()]
+NUMBERS = {
+    "length": 2.0, "height": 0.3, "radius": 0.1, "arm": 1.0, "distance": 1.2, "span": 1.0, "pin": 0.5, "rod": 1.0,
+    "thread": 2.0, "half_length": 1.0, "x": 0.5, "weight_ratio": 0.5, "weight": 1.0, "stiffness": 2.0,
+    "deflection": 1e-6, "centroid": 0.5, "radius_of_gyration": 0.3, "upper_thread": 1.0, "lower_thread": 1.0,
+    "standing_weight": 1.0, "hung_weight": 3.0, "lower_weight": 1.0, "lower_centroid": 0.75,
+    "lower_radius_of_gyration": 0.4, "upper_weight": 3.0, "upper_length": 0.25, "upper_centroid": 0.125,
+    "upper_radius_of_gyration": 0.45, "bell_weight": 1.0, "bell_centroid": 0.2, "bell_radius_of_gyration": 0.5,
+    "clapper_weight": 1.0, "clapper_centroid": 0.3, "clapper_radius_of_gyration": 0.1, "gravity": 9.0, "period": 9.0,
+    "angular_speed": 1.0, "seconds_pendulum": 1.0, "speed": 1.0, "tension": 1.0,
+}  # fmt: skip
+SIGNATURES = [(attrgetter(name)(rc), form.signature.parameters) for name, form in table.FORMS.items()]
+FORMS = [(function, {name: NUMBERS[name] for name in names}) for function, names in SIGNATURES]
 SINGLE = [each for each in FORMS if each[0].__name__.endswith(("_shape", "_shapes"))]
 OTHERS = [(elliptic.jacobi, {"u": 1.0, name: 0.5}) for name in ("modulus", "complementary_modulus")]
 OTHERS += [each for each in FORMS if each[0] is plummet.carried_inclinations]

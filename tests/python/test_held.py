@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Chains and cords held at both ends, against balances of moments and closed forms; units of forces, laws, refusals, pictures.
+"""Chains and cords held at both ends, against balances of moments and closed forms; laws, refusals, pictures.
 
 Cords as the limit of links, and integrated: tests/cpp/held.cpp, tests/cpp/paper/section_5_held_cord.cpp."""
 

@@ -203,7 +203,11 @@ def test_sensitivity_against_differences(system):
         if value == 0 and name == "tip_mass":
             continue
         step = 1e-3 * (value or 1.0)
-        slope = fourth_order(lambda x: rc.modes(_changed(system, name, value + x), 3).conical_height, step)  # noqa: B023
+
+        def heights(by, name=name, value=value):
+            return rc.modes(_changed(system, name, value + by), 3).conical_height
+
+        slope = fourth_order(heights, step)
         np.testing.assert_allclose(m.sensitivity[name] / m.conical_height, slope / m.conical_height, rtol=2e-9, atol=2e-10)
     relative = m.sensitivity.relative
     np.testing.assert_allclose(relative.length, 1.0, rtol=1e-14)

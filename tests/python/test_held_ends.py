@@ -238,8 +238,8 @@ def test_shapes_between_springs_of_one_tension():
 @pytest.mark.parametrize("ends", ["springs", "lower spring", "both heavy", "firm"])
 def test_whirl_speeds_under_a_tension_against_a_dense_pencil(ends, seed):
     rng = np.random.default_rng(seed)
-    others = {"both heavy": (Support(stiffness=50.0, mass=2.0), Support(stiffness=5e3, mass=0.1)), "firm": (Support(), Support())}
-    lower, upper = (ENDS | others)[ends]
+    heavy = (Support(stiffness=50.0, mass=2.0), Support(stiffness=5e3, mass=0.1))
+    lower, upper = (ENDS | {"both heavy": heavy, "firm": (Support(), Support())})[ends]
     held = random_held(rng, 5, "plummets" if seed % 2 else "rods", lower, upper, 0.7)
     if ends == "firm":
         held = rc.Held(random_chain(rng, 7), span=0.5)  # bodies, by weight

@@ -142,7 +142,8 @@ NAMED = {
 def four_plummets(seed):
     rng = np.random.default_rng(seed)
     masses, lengths = rng.uniform(0.5, 2.0, 4), rng.uniform(0.5, 1.5, 4)
-    return rc.Held(rc.Chain(mass=masses, length=lengths), span=rng.uniform(0.5, 0.9) * lengths.sum()), rng.uniform(5.0, 9.0)
+    held = rc.Held(rc.Chain(mass=masses, length=lengths), span=rng.uniform(0.5, 0.9) * lengths.sum())
+    return held, rng.uniform(5.0, 9.0)
 
 
 NAMED |= {f"four plummets, {seed}": four_plummets(seed) for seed in range(5)}
@@ -272,7 +273,7 @@ CORDS = {
 
 
 def exponents_of_links(held, speed, shape, frame, links):
-    """And negative directions, of the same shape of so many rods; None if these have none: few would push in a sharp bend."""
+    """And negative directions, of the same shape of so many rods; None if they have none: few push in a sharp bend."""
     chain = rc.Held(held.system.chain(links), span=held.span, weightless=held.weightless)
     found = [each for each in shapes_of(chain, speed, shape.half_waves) if each.half_waves == shape.half_waves]
     if not found:
@@ -285,8 +286,8 @@ def exponents_of_links(held, speed, shape, frame, links):
 @pytest.mark.parametrize("frame", FRAMES)
 @pytest.mark.parametrize("name", CORDS)
 def test_cords_are_the_limit_of_links(name, frame):
-    """Verdicts, and the eight slowest exponents as 1/N^2: to 160 links, which takes most of the time; in the quick tier to 80,
-    and then without the order."""
+    """Verdicts, and the eight slowest exponents as 1/N^2: to 160 links, whose eigenvalues take most of the time; in the
+    quick tier to 80, and then without the order."""
     held, speed = CORDS[name]
     shapes = shapes_of(held, speed, 2)
     assert len(shapes) == 2

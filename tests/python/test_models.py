@@ -2,8 +2,8 @@
 """Ask for an accuracy, get the cheapest method that has it: what is promised, held against mechanics worked out anew.
 
 References are in support/hanging_links.py (counts of an assembled pencil in 60 digits, finite equations by Newton's
-method). Errors are relative to the exact height, as the bounds are. Formulas mode by mode, tapered chains and inclined chains
-of many links: tests/cpp/models.
+method). Errors are relative to the exact height, as the bounds are. Formulas mode by mode, tapered chains and inclined
+chains of many links: tests/cpp/models.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whirl speeds of rigs (supports, flywheels, floats, standing links), against references that share no code with the
-library: a matrix pencil of small offsets in mpmath (rigs.py), full motions. Closed forms, long rigs and links without weight
-in their fluid: tests/cpp/rig_modes*.cpp."""
+library: a matrix pencil of small offsets in mpmath (rigs.py), full motions. Closed forms, long rigs and links without
+weight in their fluid: tests/cpp/rig_modes*.cpp."""
 
 import itertools
 import math

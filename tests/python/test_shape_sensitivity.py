@@ -15,8 +15,8 @@ import revchain as rc
 
 
 class Figure:
-    """A steady shape of a rig and what may change, in 50 digits: Newton's method on the balance of its bodies. Data are by
-    weight, columns as `rigs.columns` has them."""
+    """A steady shape of a rig and what may change, in 50 digits: Newton's method on the balance of its bodies. Data are
+    by weight, columns as `rigs.columns` has them."""
 
     def __init__(self, rig, shape):
         rows = list(zip(*rigs.rows_of(rig), strict=True))
@@ -39,7 +39,8 @@ class Figure:
     def slopes(self):
         step, each = mp.mpf(10) ** -22, []
         for i in range(len(self.start)):
-            ends = [self.balance(self.data, [x + sign * step * (i == j) for j, x in enumerate(self.start)])[0] for sign in (1, -1)]
+            moved = ([x + by * (i == j) for j, x in enumerate(self.start)] for by in (step, -step))
+            ends = [self.balance(self.data, place)[0] for place in moved]
             each.append([(x - y) / (2 * step) for x, y in zip(*ends, strict=True)])
         return mp.matrix(each).T
 
@@ -86,7 +87,7 @@ def check(rig, shape, per=1.0):
             if figure.slides or name not in ("stiffness", "support_mass"):
                 expected[name] = figure.derivative(key, 0, shape.direction if name == "angular_speed" else 1)
         for name, key in OF_RIG.items():
-            if not (name == "added_mass" and figure.turns or isinstance(shape.system, rc.Chain) and name not in OF_CHAIN):
+            if (name != "added_mass" or not figure.turns) and (name in OF_CHAIN or shape.system is not rig.chain):
                 each = [figure.derivative(key, m) for m in range(size)]
                 expected[name] = [np.stack([of_link[q] for of_link in each], axis=1) for q in range(3)]
     worst = (0.0, "", "")
@@ -99,9 +100,9 @@ def check(rig, shape, per=1.0):
             off = float(np.max(np.abs(got - want)) / max(1e-3, np.max(np.abs(want))))
             worst = max(worst, (off, quantity, name))
     assert worst[0] < 1e-13 * max(10.0, float(shape.condition)), worst
-    one, chain = shape.sensitivity.inclination, rig.chain
-    share = one.length * chain.length + one.centroid * chain.centroid + one.radius_of_gyration * chain.radius_of_gyration
-    np.testing.assert_allclose(one.length_in_proportion * chain.length, share, rtol=1e-12, atol=1e-14)
+    one = shape.sensitivity.inclination
+    share = sum(getattr(one, name) * getattr(rig.chain, name) for name in OF_CHAIN[1:])
+    np.testing.assert_allclose(one.length_in_proportion * rig.chain.length, share, rtol=1e-12, atol=1e-14)
 
 
 def random_rig(kind, size, seed):

@@ -13,16 +13,16 @@ G = 9.80665
 
 
 class Pins:
-    """A chain between two ends. Unknowns: offsets and heights of the pins that move, lowest first, then the pull of each
-    link over its length. `span` is that of a shape of a chain held by a tension."""
+    """A chain between two ends. Unknowns: offsets and heights of the pins that move, lowest first, then the pull of
+    each link over its length. `span` is that of a shape of a chain held by a tension."""
 
     def __init__(self, held, speed, number=float, span=None):
         self.held, self.number, chain = held, number, held.system
         self.n, self.speed, self.g = chain.size, number(speed), number(0.0 if held.weightless else G)
         per = number(1.0 if chain.by_mass or held.weightless else G)
         heavy = chain.mass if chain.by_mass else chain.weight
-        columns = (heavy, chain.length, chain.centroid, chain.radius_of_gyration)
-        self.m, self.a, self.h, self.k = ([number(float(x)) for x in np.broadcast_to(column, chain.size)] for column in columns)
+        columns = np.broadcast_arrays(heavy, chain.length, chain.centroid, chain.radius_of_gyration)
+        self.m, self.a, self.h, self.k = ([number(float(x)) for x in column] for column in columns)
         self.m = [m / per for m in self.m]
         self.span, self.ends = number(held.span if span is None else span), (held.lower, held.upper)
         n, zero = self.n, number(0)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Random systems by mass and by weight, and the mechanics of exactly the numbers given, in 60 digits, with nothing of the
-library's: small motions ``(K + n P - n^2 M) y = 0`` in newtons, metres and seconds, and steady shapes."""
+"""Random systems by mass and by weight, and the mechanics of exactly the numbers given, in 60 digits, with nothing of
+the library's: small motions ``(K + n P - n^2 M) y = 0`` in newtons, metres and seconds, and steady shapes."""
 
 import math
 
@@ -19,7 +19,8 @@ class System:
     """Numbers of links as given, lowest first, and of what holds them; `by` is the name of what is heavy."""
 
     def __init__(self, rng, by, most_links=12, extreme=True):
-        self.by, self.unit = by, G if by == "mass" else 1.0  # the weight of one of what is heavy, without gravity of 1 kg
+        self.by = by
+        self.unit = G if by == "mass" else 1.0  # the weight of one of what is heavy, without gravity of 1 kg
         self.size = n = int(rng.integers(1, most_links + 1))
         spread = 8 if extreme and rng.random() < 0.1 else 2
         self.heavy, self.a = power(rng, spread, n), power(rng, 1, n)
@@ -112,22 +113,23 @@ class System:
         force, heavy = mp.mpf(self.unit), (self.heavy, self.fluid, self.added)
         w, fluid, added = ([force * x for x in _numbers(column)] for column in heavy)
         a, h, rho, hf, rf = (_numbers(column) for column in (self.a, self.h, self.rho, self.hf, self.rf))
-        return list(zip(w, a, h, rho, self.momentum, [force * c for c in self.axial], fluid, hf, rf, added, strict=True))
+        axial = [force * c for c in self.axial]
+        return list(zip(w, a, h, rho, self.momentum, axial, fluid, hf, rf, added, strict=True))
 
     def pencil(self, pull=None):
         """The pencil of the pins. `pull`: tension at the lower end, and whether without gravity."""
         below, weightless = pull or (0, False)
         stiff, spin, mass = assembled(self._rows(), self.inverted, self.turns, below, 0 if weightless else 1)
-        moves = [not pull or math.isfinite(self.stiffness[0]), *[True] * (self.size - 1), math.isfinite(self.stiffness[1])]
+        yields = [math.isfinite(stiffness) for stiffness in self.stiffness]
         for above, end in enumerate((0, self.size)):
-            if math.isfinite(self.stiffness[above]):
+            if yields[above]:
                 stiff[end][end] += mp.mpf(self.stiffness[above])
                 mass[end][end] += mp.mpf(self.unit) * mp.mpf(self.carriage[above])
         whole = []
         for matrix, unit in ((stiff, 1), (spin, 1), (mass, mp.mpf(G))):
             diagonal = [matrix[i][i] / unit for i in range(self.size + 1)]
             whole.append((diagonal, [matrix[i][i + 1] / unit for i in range(self.size)]))
-        first, last = moves.index(True), self.size + moves[-1]
+        first, last = 1 if pull and not yields[0] else 0, self.size + yields[1]
         return Pencil([(diagonal[first:last], beside[first : last - 1]) for diagonal, beside in whole], *whole)
 
 

@@ -63,8 +63,8 @@ def rows_of(rig, number=mp.mpf):
 
 
 def assembled(rows, inverted, turns, below=0, bears=1):
-    """K, P and M of the offsets of all pins, the support's last, dense. `turns`: the fluid turns with the rig; `below`: the
-    tension at the lower end; `bears`: 0 without gravity."""
+    """K, P and M of the offsets of all pins, the support's last, dense. `turns`: the fluid turns with the rig; `below`:
+    the tension at the lower end; `bears`: 0 without gravity."""
     number = type(rows[0][0])
     stiff, spin, mass = ([[number(0)] * (len(rows) + 1) for _ in range(len(rows) + 1)] for _ in range(3))
 
@@ -354,9 +354,9 @@ def small_motions(rig, shape, frame="free"):
 
 
 def balance(rows, n, place, turns=False, radius=0, stiffness=0, carriage=0):
-    """What is unbalanced in a steady shape at the speed `n`: the moment about each upper pin and, on a spring, the force on
-    the support; with it the sideways pull at each upper pin and the weight below it. `place`: inclinations, lowest first,
-    then the offset of a support on a spring."""
+    """What is unbalanced in a steady shape at a speed: the moment about each upper pin and, on a spring, the force on the
+    support; with it the sideways pull at each upper pin and the weight below it. `place`: inclinations, lowest
+    first, then the offset of a support on a spring."""
     size, rate = len(rows), n * n / mp.mpf(G)
     sine, cosine = ([f(x) for x in place[:size]] for f in (mp.sin, mp.cos))
     top = place[size] if len(place) > size else radius
