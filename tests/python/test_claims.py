@@ -466,6 +466,7 @@ def tip_shape(m, height):
 
 
 def test_modes_of_cords_with_a_tip():
+    """Roots of Bessel functions in 300 digits take most of the time."""
     d, worst = Draw("tip_mass"), Worst()
 
     for turn in range(by_tier(4, 16)):

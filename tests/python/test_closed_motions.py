@@ -159,6 +159,7 @@ def test_the_motion_of_the_carriages_is_in_proportion_to_the_speed():
 
 
 def test_couplings_stiff_and_soft_and_carriages_too_unlike():
+    """One blow, and thousands of them, which take most of the time."""
     (blow,) = rc.BufferImpact(front_mass=1, rear_mass=1, buffer_stiffness=1, coupling_stiffness=1e12, speed=1).blows
     assert blow.end == near(math.pi * math.sqrt(2), rel=1e-5) and blow.impulse == near(4, rel=1e-5)  # one carriage
     # as many blows as it takes to turn a heavy one, which on a coupling soft next to the buffer swings half a period
@@ -795,6 +796,8 @@ RANGE = st.integers(-300, 300).map(lambda e: 10.0**e)
 @example(1.0, 1.0, 1e146, 1e-18, 1.0, 0.1)  # tension gravity / angular speed^2 below the normal numbers
 @settings(max_examples=by_tier(20, 150), deadline=None)
 def test_extreme_motions_have_numbers_or_are_refused(a, b, c, d, e, t):
+    """Carriages of very unlike masses deal many blows, which take most of the time."""
+
     def finite(make):
         try:
             values = make()

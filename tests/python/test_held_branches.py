@@ -12,6 +12,7 @@ import revchain as rc
 
 @pytest.mark.parametrize("seed", range(6))
 def test_complete_lists_hold_all_that_points_in_space_find(seed):
+    """Newton's method from 200 random places takes most of the time."""
     rng = np.random.default_rng(seed)
     masses, lengths = rng.uniform(0.5, 2.0, 4), rng.uniform(0.5, 1.5, 4)
     span, speed = rng.uniform(0.3, 0.9) * lengths.sum(), rng.uniform(1.0, 6.0)
