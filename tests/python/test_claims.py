@@ -13,8 +13,8 @@ from operator import attrgetter
 import mpmath as mp
 import numpy as np
 import pytest
-from exact import carried_tangents, exactly, heights_of, jacobi, stored_links
-from mechanics import disturbed
+from exact import carried_tangents, exactly, heights_of, jacobi, pendulum, roots_of, stored_links
+from point_masses import small_motions
 from tier import by_tier
 
 import revchain as rc
@@ -111,19 +111,8 @@ def check_random(name, draw, found, exact, samples=SAMPLES):
 # Closed forms --------------------------------------------------------------------------------------------------------
 
 
-def roots_of(total, product):
-    """Roots of x^2 - total x + product, the larger first."""
-    root = mp.sqrt(total**2 / 4 - product)
-    larger = abs(total) / 2 + root
-    return [larger, product / larger] if total > 0 else [product / -larger, -larger]
-
-
 def within(allowed, *numbers):
     return [(number, allowed) for number in numbers]
-
-
-def pendulum(h, k):
-    return h + k**2 / h
 
 
 def inclined(l, x):  # noqa: E741
@@ -477,6 +466,7 @@ def tip_shape(m, height):
 
 
 def test_modes_of_cords_with_a_tip():
+    """Roots of Bessel functions in 300 digits take most of the time."""
     d, worst = Draw("tip_mass"), Worst()
 
     for turn in range(by_tier(4, 16)):
@@ -790,16 +780,7 @@ def test_exponents_of_small_disturbances(frame):
         body = {"centroid": length / 2, "radius_of_gyration": length / 4} if rods else {}
         chain = rc.Chain(weight=weight, length=length, **body)
         for shape in rc.steady_shapes(chain, conical_height=rc.modes(chain).conical_height[0] * d.uniform(0.05, 0.95)):
-            with mp.workdps(40):
-                mass, turn, rest, _ = (mp.matrix(part.tolist()) for part in disturbed(chain, shape, mp.mpf))
-                if frame == "driven":
-                    squares = mp.eig(-(mass[:size, :size] ** -1) * rest[:size, :size], left=False, right=False)
-                    exact = [sign * mp.sqrt(square) for square in squares for sign in (1, -1)]
-                else:
-                    whole, inverse, half = mp.zeros(4 * size), mass**-1, 2 * size
-                    whole[:half, half:] = mp.eye(half)
-                    whole[half:, :half], whole[half:, half:] = -inverse * rest, -inverse * turn
-                    exact = mp.eig(whole, left=False, right=False)
+            exact, _ = small_motions(rc.Rig(chain), shape, frame)
             largest = max(map(abs, exact))
             for value in shape.stability(frame=frame).exponents:
                 near = sorted(abs(mp.mpc(complex(value)) - e) for e in exact)

@@ -53,23 +53,6 @@ def test_the_plane_turns_by_half_the_difference_of_the_phases():
     assert np.isnan(given.plane_rotation(1e5))
 
 
-def test_beyond_the_fastest_wave_it_dies_away():
-    given = string(0.0, radius_of_gyration=0.0, centroid=0.1)
-    fastest = given.angular_speeds(np.pi).forward
-    assert given.phase(1.5 * fastest) == np.pi
-    y = offsets_of_plummets(given, 1.5 * fastest)
-    assert -np.log(np.abs(y[1:20] / y[:19])) == pytest.approx(given.attenuation(1.5 * fastest), rel=1e-9)
-
-
-def offsets_of_plummets(given, speed):
-    """The decaying root of the recurrence of the balance at a pin."""
-    W, a, w = given.weight, given.length, speed**2 / 9.80665
-    k = given.tension / a
-    middle, beside = 2 * k - w * W, -k
-    root = np.roots([beside, middle, beside])
-    return root[np.argmin(np.abs(root))] ** np.arange(30)
-
-
 def test_a_string_is_a_value():
     given = string()
     assert pickle.loads(pickle.dumps(given)) == given and hash(given) == hash(string())

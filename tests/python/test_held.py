@@ -1,19 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Chains and cords held at both ends, against balances of moments, integration, closed forms and a dense pencil;
-units of forces, laws, refusals, pictures."""
+"""Chains and cords held at both ends, against balances of moments and closed forms; laws, refusals, pictures.
+
+Cords as the limit of links, and integrated: tests/cpp/held.cpp, tests/cpp/paper/section_5_held_cord.cpp."""
 
 import math
 import time
 
 import matplotlib
-import mpmath as mp
 import numpy as np
 import pytest
-import scipy.special
 from mechanics import moments
-from rigs import G, pencil, random_chain
-from scipy.integrate import solve_ivp
-from scipy.optimize import brentq
+from rigs import random_chain
 
 import revchain as rc
 from revchain import Held
@@ -93,53 +90,10 @@ def test_moments_about_every_pin_balance(held):
         assert shape.residual <= 1e-14
 
 
-def test_held_links_tend_to_the_held_cord_with_gravity():
-    cord = rc.Cord(1.0, weight=2.0)
-    limit, *held = (
-        rc.steady_shapes(Held(system, span=0.6), conical_height=0.15, max_half_waves=2)
-        for system in (cord, *(cord.chain(count) for count in (30, 60, 120)))
-    )
-    for exact, *links in zip(limit, *held, strict=True):
-        error = []
-        for shape in links:
-            want = exact.along(np.linspace(0, 1, shape.offset.size)).offset
-            error.append(np.abs(shape.offset - want * np.sign(shape.offset[1] * want[1])).max())
-        assert error[0] / error[1] == pytest.approx(4, rel=0.2)
-        assert error[1] / error[2] == pytest.approx(4, rel=0.2)
-
-
-def test_weightless_links_tend_to_the_skipping_rope():
+def test_fast_with_gravity_is_as_without():
     rope = rc.SkippingRope(span=0.6, length=1.0, angular_speed=20.0)
-    error = []
-    for count in (20, 40, 80):
-        held = Held(rc.Chain.uniform_rods(count, length=1.0), span=0.6, weightless=True)
-        shape = rc.steady_shapes(held, angular_speed=20.0)[0]
-        error.append(abs(shape.offset.max() / rope.sag - 1))
-        assert shape.conical_height == 0
-    assert error[0] / error[1] == pytest.approx(4, rel=0.15)
-    assert error[1] / error[2] == pytest.approx(4, rel=0.15)
-    # with gravity, as fast as you like: the same
     fast = rc.steady_shapes(Held(rc.Cord(1.0, weight=1.0), span=0.6), conical_height=1e-8)[0]
     assert float(fast.along(0.5).offset) == pytest.approx(rope.sag, rel=1e-6)
-
-
-@pytest.mark.parametrize(
-    ("length", "span", "height"),
-    [(2.0, 1.0, G / (2 * np.pi) ** 2), (2.0, 1.0, G / (2 * np.pi * 0.6) ** 2), (1.0, 0.55, 0.2)],
-)
-def test_the_rope_with_gravity(length, span, height):
-    """Integrated from the lower hand with the pull that the library says is there: it ends in the upper hand."""
-    (cord,) = rc.steady_shapes(Held(rc.Cord(length, weight=length), span=span), conical_height=height)
-
-    def change(_, state):
-        offset, _, out, up = state
-        pull = np.hypot(out, up)
-        return [out / pull, up / pull, -offset / height, 1.0]
-
-    first, arc = [0, 0, *cord.lower_pull], [0.3 * length, 0.5 * length, 0.8 * length, length]
-    *inside, last = solve_ivp(change, (0, length), first, rtol=1e-12, atol=1e-14, method="DOP853", t_eval=arc).y.T
-    np.testing.assert_allclose(last, [0, span, *(-cord.upper_pull)], rtol=0, atol=1e-10)
-    np.testing.assert_allclose(cord.along(arc[:3]).offset, [state[0] for state in inside], rtol=0, atol=1e-10)
 
 
 def test_where_the_rope_folds():
@@ -157,53 +111,6 @@ def test_where_the_rope_folds():
     assert len(rc.steady_shapes(rope, angular_speed=2 * np.pi * first)) == 0
 
 
-def test_continuous_chain_with_a_tip_weight_at_any_inclination():
-    length, height, tip = 1.0, 0.35, 0.4
-    cord = rc.Cord(length, weight=length, tip_weight=tip)
-    found = rc.steady_shapes(cord, conical_height=height)
-    first = rc.modes(cord, 2).conical_height
-    assert len(found) == int((first > height).sum())
-    start = float(found[0].offset[0])
-
-    def rhs(s, u):  # y, pull across: pull up is tip + s
-        size = math.hypot(u[1], tip + s)
-        return [u[1] / size, -u[0] / height]
-
-    end = solve_ivp(rhs, (0, length), [start, -tip * start / height], "DOP853", rtol=1e-13, atol=1e-15)
-    assert abs(end.y[0, -1]) < 1e-12
-
-
-def test_taut_speeds_of_a_heavy_cord():
-    # tension T below and T + W above: cross products of Bessel functions
-    load = 0.3
-    got = rc.modes(Held(rc.Chain.uniform_rods(600, length=1.0, weight=1.0), tension=load + 1.0), 3).conical_height
-
-    def cross(x):
-        a, b = 2 * math.sqrt(load / x), 2 * math.sqrt((load + 1) / x)
-        return scipy.special.j0(a) * scipy.special.y0(b) - scipy.special.j0(b) * scipy.special.y0(a)
-
-    for height in got:
-        root = brentq(cross, height * 0.999, height * 1.001, xtol=1e-15)
-        assert height == pytest.approx(root, rel=2e-4)
-
-
-def test_taut_speeds_against_a_dense_pencil():
-    chain = random_chain(np.random.default_rng(9), 7)
-    tension = 2.5 + float(chain.weight.sum())
-    found = rc.modes(Held(chain, tension=tension), "all")
-    with mp.workdps(50):
-        stiff, _, mass = pencil(rc.Rig(chain), whole=True)
-        below = mp.mpf(tension) - sum(mp.mpf(float(w)) for w in chain.weight)
-        for m, a in enumerate(chain.length):
-            for i, j, sign in ((m, m, 1), (m, m + 1, -1), (m + 1, m, -1), (m + 1, m + 1, 1)):
-                stiff[i][j] += sign * below / mp.mpf(float(a))
-        inside, heavy = (mp.matrix([row[1:-1] for row in matrix[1:-1]]) for matrix in (stiff, mass))
-        heights = sorted((mp.re(1 / x) for x in mp.eig(heavy**-1 * inside)[0]), reverse=True)
-        assert len(found) == 6
-        for a, b in zip(found.conical_height, heights, strict=True):
-            assert abs(a - b) <= EPS * a
-
-
 def test_taut_speeds_come_with_a_certificate():
     held = Held(rc.Chain.uniform_rods(9, length=1.0, mass=2.0), tension=40.0)
     found = rc.modes(held, "all", certify=True)
@@ -217,19 +124,6 @@ def test_taut_speeds_come_with_a_certificate():
     assert rc.modes(held, "all").certificate is None
     with pytest.raises(ValueError, match="certify is for a Chain that hangs"):
         rc.modes(Held(rc.Cord(1.0, weight=1.0), tension=2.0), certify=True)
-
-
-def test_a_pin_with_mass_has_a_mode_where_the_lowest_link_is_held():
-    links = rc.Chain(weight=[1.0, 0.0], length=1.0, centroid=[0.5, 1.0], radius_of_gyration=0.0)
-    held = Held(links, tension=3.0)
-    assert held.mode_count == len(rc.modes(held)) == 1
-
-
-def test_taut_modes_of_a_heavy_pull_are_those_of_a_string():
-    modes = rc.modes(Held(rc.Chain.uniform_plummets(8, length=8.0, weight=8.0), tension=1e15 + 8), 7)
-    string = 1e-15 / (4 * np.sin(np.arange(1, 8) * np.pi / 16) ** 2)
-    np.testing.assert_allclose(modes.conical_height, string, rtol=1e-13)
-    assert modes.shape.shape == (7, 9)
 
 
 def test_a_slow_chain_folds_and_says_so():

@@ -3,6 +3,7 @@
 
 import numpy as np
 import pytest
+from mechanics import fourth_order
 
 import revchain as rc
 
@@ -46,11 +47,13 @@ def changed(data, path, step):
 
 def slope(data, path, step):
     """Of inclinations, offsets and tensions, by differences of fourth order."""
-    found = []
-    for k in (-2, -1, 1, 2):
-        shape = shape_of(changed(data, path, k * step))
-        found.append([shape.inclination, shape.offset, shape.tension])
-    return [(8 * (c - b) - (d - a)) / (12 * step) for a, b, c, d in zip(*found, strict=True)]
+
+    def parts(by):
+        shape = shape_of(changed(data, path, by))
+        return np.concatenate([getattr(shape, part) for part in PARTS])
+
+    size = len(MASS)
+    return np.split(fourth_order(parts, step), [size, 2 * size + 1])
 
 
 # what takes 10 s is slow: "tension" and "weightless" are tested by themselves
@@ -61,7 +64,8 @@ def test_differences(name):
     chain = {"mass": MASS, "length": LENGTH, **BODIES}
     data = {"chain": chain, "speed": 7.0, **ENDS[name]}
     sensitivity = shape_of(data).sensitivity
-    paths = {("angular_speed", None): ("speed",), (next(k for k in ("span", "tension") if k in data), None): (next(k for k in ("span", "tension") if k in data),)}
+    held_by = next(name for name in ("span", "tension") if name in data)
+    paths = {("angular_speed", None): ("speed",), (held_by, None): (held_by,)}
     for datum in ("mass", "length", "centroid", "radius_of_gyration"):
         paths |= {(datum, k): ("chain", datum, k) for k in range(5)}
     for end in ("lower", "upper"):

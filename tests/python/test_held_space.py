@@ -1,16 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Chains held at both ends against shooting in space: where a list is complete there is no other shape, in any plane."""
 
-import math
-
 import numpy as np
 import pytest
+from ends import G, Pins
 from space import Shooting
 
 import revchain as rc
 from revchain import Support
-
-G = 9.80665
 
 
 def end(rng, kind):
@@ -30,15 +27,6 @@ def held_at_random(rng, lower, upper):
             return rc.Held(rc.Chain(mass=mass, length=length), span=rng.uniform(0.2, 0.9) * length.sum(), **ends)
         except ValueError:  # firm ends are too far apart
             continue
-
-
-def half_waves(held, place):
-    """Half waves of a shape in the plane: 1 more than its changes of side about the line between the rest places of the ends."""
-    low, high = held.lower.radius, held.upper.radius
-    free = [i > 0 or math.isfinite(held.lower.stiffness) for i in range(len(place))]
-    free[-1] = math.isfinite(held.upper.stiffness)
-    side = (place[:, 0] - low - (high - low) * place[:, 2] / held.span > 0)[free]
-    return 1 + int((side[1:] != side[:-1]).sum())
 
 
 PLANAR = [
@@ -67,7 +55,7 @@ def check_planar(lower, upper, seed, starts):
         assert np.abs(place[:, 1]).max() < 1e-6 * held.length
         if held.is_on_axis and np.abs(place[:, 0]).max() < 1e-6 * held.length:
             continue  # along the axis
-        if shapes.complete and half_waves(held, place) <= most:
+        if shapes.complete and Pins(held, speed).half_waves(place[:, 0], place[:, 2]) <= most:
             assert any(np.abs(shape.offset - place[:, 0]).max() < 1e-6 * held.length for shape in shapes)
     return shapes.complete
 

@@ -189,6 +189,7 @@ def test_scene_without_modes_still_answers(python, tmp_path):
 
 
 def test_new_scene_names_every_feature(python, tmp_path):
+    """The program is started three times."""
     path = tmp_path / "scene.toml"
     assert python("-m", "revchain", "new", path).returncode == 0
     text = path.read_text()

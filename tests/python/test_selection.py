@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which modes: numbers and windows; certificates; precisions. Checked against all modes and against mpmath."""
+"""Which modes: numbers and windows; certificates; precisions. Checked against all modes and against mpmath.
+
+Random windows of long chains: tests/cpp/linear/selection.cpp."""
 
 import copy
 import itertools
@@ -45,20 +47,6 @@ def test_any_range_of_numbers(chain, data):
     same_modes(part, every)
 
 
-@given(chains(), st.floats(-12, 12), st.floats(0.001, 8))
-def test_random_windows(chain, low, width):
-    low, high = 2.0**low, 2.0 ** (low + width)
-    every = rc.modes(chain)
-    part = rc.modes(chain, conical_height=(low, high))
-    inside = np.arange(rc.count_modes(chain, conical_height=high), rc.count_modes(chain, conical_height=low))
-    assert part.number.tolist() == (inside + 1).tolist()
-    away = np.abs(every.conical_height / np.array([[low], [high]]) - 1).min() > 4 * ULP
-    if away:
-        by_height = (every.conical_height > low) & (every.conical_height <= high)
-        assert part.number.tolist() == every.number[by_height].tolist()
-    same_modes(part, every)
-
-
 @given(chains(), st.lists(st.floats(0.01, 100), min_size=1, max_size=4, unique=True), st.floats(0.1, 10))
 def test_windows_of_speeds_that_meet_lose_nothing(chain, ends, gravity):
     ends = [0.0, *sorted(ends), INF]
@@ -86,19 +74,6 @@ def test_a_height_at_the_end_of_a_window():
     assert number(angular_speed=(1, 2), gravity=6) == []
     assert number(angular_speed=(4, INF), gravity=8) == [2]
     assert number(angular_speed=(3, 4), gravity=8) == []
-
-
-def test_the_middle_of_two_thousand():
-    chain = rc.Chain(weight=np.exp(np.sin(np.arange(2000.0))), length=1.0 + 0.3 * np.cos(np.arange(2000.0)))
-    result = rc.modes(chain, count=10, first=1000, certify=True)
-    assert result.number.tolist() == list(range(1000, 1010))
-    assert result.error_bound.max() <= 2.001 * ULP
-    proof = result.certificate
-    assert proof.above_lower.tolist() == result.number.tolist()
-    assert proof.above_upper.tolist() == (result.number - 1).tolist()
-    assert np.array_equal(rc.count_modes(chain, conical_height=proof.lower), proof.above_lower)
-    assert np.array_equal(rc.count_modes(chain, conical_height=proof.upper), proof.above_upper)
-    assert [nodes.size for nodes in result.nodes] == list(range(999, 1009))
 
 
 @pytest.mark.parametrize("certify", [True, False])

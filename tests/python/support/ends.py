@@ -13,15 +13,18 @@ G = 9.80665
 
 
 class Pins:
-    """A chain given by mass between two ends. Unknowns: offsets and heights of the pins that move, lowest first, then the
-    pull of each link over its length."""
+    """A chain between two ends. Unknowns: offsets and heights of the pins that move, lowest first, then the pull of
+    each link over its length. `span` is that of a shape of a chain held by a tension."""
 
-    def __init__(self, held, speed, number=float):
+    def __init__(self, held, speed, number=float, span=None):
         self.held, self.number, chain = held, number, held.system
         self.n, self.speed, self.g = chain.size, number(speed), number(0.0 if held.weightless else G)
-        columns = (chain.mass, chain.length, chain.centroid, chain.radius_of_gyration)
+        per = number(1.0 if chain.by_mass or held.weightless else G)
+        heavy = chain.mass if chain.by_mass else chain.weight
+        columns = np.broadcast_arrays(heavy, chain.length, chain.centroid, chain.radius_of_gyration)
         self.m, self.a, self.h, self.k = ([number(float(x)) for x in column] for column in columns)
-        self.span, self.ends = number(held.span), (held.lower, held.upper)
+        self.m = [m / per for m in self.m]
+        self.span, self.ends = number(held.span if span is None else span), (held.lower, held.upper)
         n, zero = self.n, number(0)
         self.free_y = [i for i in range(n + 1) if 0 < i < n or math.isfinite(self.ends[i > 0].stiffness)]
         self.free_z = list(range(1, n))
@@ -39,7 +42,7 @@ class Pins:
         for i, end in zip((0, n), self.ends, strict=True):
             if math.isfinite(end.stiffness):
                 self.spring[i] = number(end.stiffness)
-                self.mass[i][i] += number(end.carriage)
+                self.mass[i][i] += number(end.carriage) / per
         self.rest = [zero] * (n + 1)
         self.rest[0], self.rest[n] = number(self.ends[0].radius), number(self.ends[1].radius)
 
@@ -149,11 +152,19 @@ def shapes_by_pins(held, speed, rng, starts, most):
     return found
 
 
-def polished(held, speed, x, digits=50):
-    """Inclinations of a shape by Newton's method with so many digits."""
+def unknowns(pins, shape):
+    """Those of a shape of the library, pulls by least squares from its places."""
+    x = [*(float(shape.offset[i]) for i in pins.free_y), *(float(shape.height[i]) for i in pins.free_z)]
+    none = np.array([float(gap) for gap in pins.gaps([*x, *[0.0] * pins.n])])
+    rows = np.array([[float(gap) for gap in pins.gaps([*x, *unit])] for unit in np.eye(pins.n).tolist()]) - none
+    return [*x, *np.linalg.lstsq(rows.T, -none, rcond=None)[0]]
+
+
+def polished(held, speed, x, digits=50, span=None):
+    """Inclinations of a shape by Newton's method with so many digits; `x`: the unknowns, or a shape of the library."""
     with mp.workdps(digits):
-        pins = Pins(held, speed, mp.mpf)
-        x = [mp.mpf(float(value)) for value in x]
+        pins = Pins(held, speed, mp.mpf, span)
+        x = [mp.mpf(float(value)) for value in (unknowns(pins, x) if hasattr(x, "offset") else x)]
         for _ in range(7):
             step = mp.lu_solve(mp.matrix(pins.slopes(x)).T, mp.matrix(pins.gaps(x)))
             x = [value - change for value, change in zip(x, step, strict=True)]

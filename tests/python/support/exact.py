@@ -2,10 +2,28 @@
 """References in mpmath that several tests share: conical heights of stored numbers, Jacobi's elliptic functions."""
 
 import mpmath as mp
+import pytest
 
 
 def exactly(*numbers):
     return [mp.mpf(float(number)) for number in numbers]
+
+
+def near(value, rel):
+    """Within that of the value, however small."""
+    return pytest.approx(value, rel=rel, abs=0)
+
+
+def roots_of(total, product):
+    """Roots of x^2 - total x + product, the larger first."""
+    larger = abs(total) / 2 + mp.sqrt(total**2 / 4 - product)
+    return [larger, product / larger] if total > 0 else [product / -larger, -larger]
+
+
+def pendulum(centroid, gyration):
+    """The pendulum length of a link, exact."""
+    h, k = mp.mpf(centroid), mp.mpf(gyration)
+    return h + k**2 / h
 
 
 def stored_links(chain):

@@ -1,15 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Random systems by mass and by weight, and small motions of exactly the numbers given, in 60 digits, with nothing of
-the library's: tridiagonal K, P and M of ``(K + n P - n^2 M) y = 0`` in newtons, metres and seconds."""
+"""Random systems by mass and by weight, and the mechanics of exactly the numbers given, in 60 digits, with nothing of
+the library's: small motions ``(K + n P - n^2 M) y = 0`` in newtons, metres and seconds, and steady shapes."""
 
 import math
 
 import mpmath as mp
 import numpy as np
+from rigs import G, assembled, balance
 
 import revchain as rc
-
-G = 9.80665
 
 
 def power(rng, most, size=None):
@@ -20,7 +19,8 @@ class System:
     """Numbers of links as given, lowest first, and of what holds them; `by` is the name of what is heavy."""
 
     def __init__(self, rng, by, most_links=12, extreme=True):
-        self.by, self.unit = by, G if by == "mass" else 1.0
+        self.by = by
+        self.unit = G if by == "mass" else 1.0  # the weight of one of what is heavy, without gravity of 1 kg
         self.size = n = int(rng.integers(1, most_links + 1))
         spread = 8 if extreme and rng.random() < 0.1 else 2
         self.heavy, self.a = power(rng, spread, n), power(rng, 1, n)
@@ -102,100 +102,35 @@ class System:
         return held, (mp.mpf(tension) - force * sum(_numbers(self.heavy)), False)
 
     def figure(self, n, radius, x):
-        """What is unbalanced in a steady shape of a rig: moments about each upper pin, then the force on a support on a
-        spring. `x`: inclinations, lowest first, then the offset of such a support."""
-        force, inertia = self._units(False)
-        sine, cosine = [mp.sin(t) for t in x[: self.size]], [mp.cos(t) for t in x[: self.size]]
-        slides = math.isfinite(self.stiffness[1])
-        top, square = x[self.size] if slides else mp.mpf(radius), n * n
-        moments, across = [mp.mpf(0)] * self.size, square * inertia * mp.mpf(self.carriage[1]) * top
-        for m, (w, _, h, rho, fluid, hf, rf, added) in enumerate(rows := self._rows()):
-            lent = added - (fluid if self.turns else 0)
-            for bears, moves, depth, turn in ((w, w, h, rho), (-fluid, lent, hf, rf)):
-                bears, moves = force * bears, square * inertia * moves
-                y = top + depth * sine[m] + sum(rows[r][1] * sine[r] for r in range(m + 1, self.size))
-                across += moves * y
-                for r in range(m, self.size):
-                    arm = depth if r == m else rows[r][1]
-                    moments[r] += arm * (bears * sine[r] - moves * y * cosine[r])
-                moments[m] -= moves * turn**2 * sine[m] * cosine[m]
-            moments[m] += (self.momentum[m] + inertia * self.axial[m] * n * cosine[m]) * n * sine[m]
-        return [*moments, across - mp.mpf(self.stiffness[1]) * (top - mp.mpf(radius))] if slides else moments
-
-    def bow(self, n, span, radii, weightless, x):
-        """The same of a chain held at both ends. `x`: inclinations, then the offset of a lower end on a spring, then the
-        forces on the upper end along the axis and, if it is firm, across it."""
-        force, inertia = self._units(weightless)
-        angles, rest = x[: self.size], list(x[self.size :])
-        loose = math.isfinite(self.stiffness[0])
-        foot, along = rest.pop(0) if loose else mp.mpf(radii[0]), rest.pop(0)
-        y, z, square = foot, mp.mpf(0), n * n
-        sine, cosine = [mp.sin(t) for t in angles], [mp.cos(t) for t in angles]
-        moments, across = [mp.mpf(0)] * self.size, mp.mpf(0)
-        for m, (w, a, h, rho, *_) in enumerate(rows := self._rows()):
-            pull = square * inertia * w * (y - (a - h) * sine[m])
-            across += pull
-            for r in range(m + 1):
-                arm = a - h if r == m else rows[r][1]
-                moments[r] += arm * (pull * cosine[r] - force * w * sine[r])
-            moments[m] -= square * inertia * w * rho**2 * sine[m] * cosine[m]
-            y, z = y - a * sine[m], z + a * cosine[m]
-        springs = [
-            square * inertia * mp.mpf(self.carriage[i]) * at - mp.mpf(self.stiffness[i]) * (at - mp.mpf(radii[i]))
-            if math.isfinite(self.stiffness[i])
-            else mp.mpf(0)
-            for i, at in enumerate((foot, y))
-        ]
-        aside = springs[1] if math.isfinite(self.stiffness[1]) else rest.pop(0)
-        for r, (_, a, *_) in enumerate(rows):
-            moments[r] += a * (aside * cosine[r] - along * sine[r])
-        answer = [*moments, z - mp.mpf(span)]
-        if loose:
-            answer.append(across + springs[0] + aside)
-        return answer if math.isfinite(self.stiffness[1]) else [*answer, y - mp.mpf(radii[1])]
-
-    def _units(self, weightless):
-        """Newtons, and kilograms, for one of what is heavy."""
-        if weightless:
-            return mp.mpf(0), mp.mpf(1)
-        return (mp.mpf(G), mp.mpf(1)) if self.by == "mass" else (mp.mpf(1), 1 / mp.mpf(G))
+        """What is unbalanced in a steady shape of a rig, see `balance`."""
+        held = {"radius": mp.mpf(radius)}
+        if math.isfinite(self.stiffness[1]):
+            held |= {"stiffness": mp.mpf(self.stiffness[1]), "carriage": mp.mpf(self.unit) * mp.mpf(self.carriage[1])}
+        return balance(self._rows(), n, x, self.turns, **held)[0]
 
     def _rows(self):
-        columns = (self.heavy, self.a, self.h, self.rho, self.fluid, self.hf, self.rf, self.added)
-        return list(zip(*(_numbers(column) for column in columns), strict=True))
+        """Links by weight, as `rigs.balance` takes them."""
+        force, heavy = mp.mpf(self.unit), (self.heavy, self.fluid, self.added)
+        w, fluid, added = ([force * x for x in _numbers(column)] for column in heavy)
+        a, h, rho, hf, rf = (_numbers(column) for column in (self.a, self.h, self.rho, self.hf, self.rf))
+        axial = [force * c for c in self.axial]
+        return list(zip(w, a, h, rho, self.momentum, axial, fluid, hf, rf, added, strict=True))
 
     def pencil(self, pull=None):
-        """K, P and M: diagonals, and what is beside them. `pull`: tension at the lower end, and whether without gravity."""
-        size = self.size
-        below, weightless = pull or (mp.mpf(0), False)
-        force, inertia = self._units(weightless)
-        K, P, M = ([[mp.mpf(0)] * (size + 1), [mp.mpf(0)] * size] for _ in range(3))
-
-        def add(matrix, m, u, v, factor):
-            matrix[0][m] += factor * u * u
-            matrix[0][m + 1] += factor * v * v
-            matrix[1][m] += factor * u * v
-
-        for m, (w, a, h, rho, fluid, hf, rf, added) in enumerate(self._rows()):
-            sign = -1 if self.inverted[m] else 1
-            lean = sign / a**2
-            add(K, m, 1, -1, lean * (force * (w * h - fluid * hf) + a * below))
-            add(P, m, 1, -1, lean * self.momentum[m])
-            below += force * (w - fluid)
-            for moves, depth, turn in ((w, h, rho), (added - (fluid if self.turns else 0), hf, rf)):
-                add(M, m, depth / a, 1 - depth / a, inertia * moves)
-                add(M, m, 1, -1, inertia * moves * turn**2 / a**2)
-            add(M, m, 1, -1, -inertia * self.axial[m] / a**2)
-        ends = (0, size) if pull else (size,)
-        for end in ends:
-            above = int(end > 0)
-            if math.isinf(self.stiffness[above]):
-                continue
-            K[0][end] += mp.mpf(self.stiffness[above])
-            M[0][end] += inertia * mp.mpf(self.carriage[above])
-        first = 1 if pull and math.isinf(self.stiffness[0]) else 0
-        last = size if math.isinf(self.stiffness[1]) else size + 1
-        return Pencil([(diagonal[first:last], beside[first : last - 1]) for diagonal, beside in (K, P, M)], K, P, M)
+        """The pencil of the pins. `pull`: tension at the lower end, and whether without gravity."""
+        below, weightless = pull or (0, False)
+        stiff, spin, mass = assembled(self._rows(), self.inverted, self.turns, below, 0 if weightless else 1)
+        yields = [math.isfinite(stiffness) for stiffness in self.stiffness]
+        for above, end in enumerate((0, self.size)):
+            if yields[above]:
+                stiff[end][end] += mp.mpf(self.stiffness[above])
+                mass[end][end] += mp.mpf(self.unit) * mp.mpf(self.carriage[above])
+        whole = []
+        for matrix, unit in ((stiff, 1), (spin, 1), (mass, mp.mpf(G))):
+            diagonal = [matrix[i][i] / unit for i in range(self.size + 1)]
+            whole.append((diagonal, [matrix[i][i + 1] / unit for i in range(self.size)]))
+        first, last = 1 if pull and not yields[0] else 0, self.size + yields[1]
+        return Pencil([(diagonal[first:last], beside[first : last - 1]) for diagonal, beside in whole], *whole)
 
 
 class Pencil:

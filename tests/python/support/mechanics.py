@@ -52,6 +52,12 @@ def chains(draw, most=7, wild=True):
     return rc.Chain(weight=weight, length=length, centroid=centroid, pendulum_length=centroid * (1 + ratio))
 
 
+def fourth_order(function, step):
+    """The derivative at 0, by differences of fourth order."""
+    far_below, below, above, far_above = (function(k * step) for k in (-2, -1, 1, 2))
+    return (far_below - 8 * below + 8 * above - far_above) / (12 * step)
+
+
 def plummets(count):
     """On threads of 1."""
     return rc.Chain.uniform_plummets(count, length=float(count))

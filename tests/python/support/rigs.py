@@ -57,36 +57,43 @@ def random_chain(rng, size, spread=2.0, plummets=False):
     return rc.Chain(weight=weight, length=length, centroid=centroid, radius_of_gyration=radius)
 
 
-def pencil(rig, number=mp.mpf, whole=False):
-    """K, P and M of ``(K + n P - n^2 M / g) y = 0``, dense; the support last if it is on a spring, or if `whole`."""
-    size, given = len(rig), columns(rig)
-    count = size + 1
-    stiff, spin, mass = ([[number(0)] * count for _ in range(count)] for _ in range(3))
+def rows_of(rig, number=mp.mpf):
+    """All that `columns` has, a row for each link."""
+    return list(zip(*([number(float(x)) for x in column] for column in vars(columns(rig)).values()), strict=True))
+
+
+def assembled(rows, inverted, turns, below=0, bears=1):
+    """K, P and M of the offsets of all pins, the support's last, dense. `turns`: the fluid turns with the rig; `below`:
+    the tension at the lower end; `bears`: 0 without gravity."""
+    number = type(rows[0][0])
+    stiff, spin, mass = ([[number(0)] * (len(rows) + 1) for _ in range(len(rows) + 1)] for _ in range(3))
 
     def add(matrix, row, factor):
         for i, u in row.items():
             for j, v in row.items():
                 matrix[i][j] += factor * u * v
 
-    below = number(0)
-    for m in range(size):
-        w, a, h, rho, p, c, fluid, hf, rf, added = (number(float(column[m])) for column in vars(given).values())
-        lean = {m: 1 / a, m + 1: -1 / a}
-        kappa = w * h - fluid * hf + a * below
-        add(stiff, lean, -kappa if rig.inverted[m] else kappa)
-        below += w - fluid
-        add(mass, {m: h / a, m + 1: 1 - h / a}, w)
-        add(mass, lean, w * rho**2 - c)
-        dragged = added - (fluid if rig.fluid == "turning" else 0)
-        add(mass, {m: hf / a, m + 1: 1 - hf / a}, dragged)
-        add(mass, lean, dragged * rf**2)
-        add(spin, lean, -p if rig.inverted[m] else p)  # along the link, from its upper pin to its lower
-    if math.isfinite(rig.support.stiffness):
-        stiff[size][size] += number(rig.support.stiffness)
-        mass[size][size] += number(rig.support.carriage)
-    elif not whole:
-        return tuple([row[:size] for row in matrix[:size]] for matrix in (stiff, spin, mass))
+    for m, (w, a, h, rho, p, c, fluid, hf, rf, added) in enumerate(rows):
+        lean, sign = {m: 1 / a, m + 1: -1 / a}, -1 if inverted[m] else 1
+        add(stiff, lean, sign * (bears * (w * h - fluid * hf) + a * below))
+        add(spin, lean, sign * p)  # along the link, from its upper pin to its lower
+        below += bears * (w - fluid)
+        for moves, depth, turn in ((w, h, rho), (added - (fluid if turns else 0), hf, rf)):
+            add(mass, {m: depth / a, m + 1: 1 - depth / a}, moves)
+            add(mass, lean, moves * turn**2)
+        add(mass, lean, -c)
     return stiff, spin, mass
+
+
+def pencil(rig, number=mp.mpf, whole=False):
+    """K, P and M of ``(K + n P - n^2 M / g) y = 0``, dense; the support last if it is on a spring, or if `whole`."""
+    matrices, size = assembled(rows_of(rig, number), rig.inverted, rig.fluid == "turning"), len(rig)
+    if math.isfinite(rig.support.stiffness):
+        matrices[0][size][size] += number(rig.support.stiffness)
+        matrices[2][size][size] += number(rig.support.carriage)
+    elif not whole:
+        return tuple([row[:size] for row in matrix[:size]] for matrix in matrices)
+    return matrices
 
 
 def real_speeds(rig, gravity=G, digits=60):
@@ -137,24 +144,6 @@ def agree_with_others(rig, found, tolerance=1e-14):
         i = int(np.argmin(distance))
         assert distance[i] <= 1e-13
         assert abs(found.other.growth_rate[i] - rate) <= 1e-12 * rate
-
-
-def pivots(rig, speeds):
-    """Negative pivots of K + n P - n^2 M / g, speeds side by side in 80-bit floats, link by link."""
-    ld = np.longdouble
-    n, given = np.asarray(speeds, dtype=ld), columns(rig)
-    weight, a, h, rho, p = (x.astype(ld) for x in (given.w, given.a, given.h, given.rho, given.p))
-    below, s, mu = ld(0), np.zeros_like(n), n * n / ld(G)
-    negative = np.zeros(n.shape, dtype=int)
-    for m in range(len(rig)):
-        k = ((weight[m] * h[m] + a[m] * below) + n * p[m]) / a[m] ** 2
-        q = weight[m] * (h[m] ** 2 + rho[m] ** 2) / a[m] ** 2
-        r = weight[m] * ((a[m] - h[m]) ** 2 + rho[m] ** 2) / a[m] ** 2
-        d = s + k - mu * q
-        negative += d < 0
-        s = ((k - mu * r) * s - mu * (k * weight[m] - mu * (weight[m] * rho[m] / a[m]) ** 2)) / d
-        below += weight[m]
-    return negative
 
 
 class Motion:
@@ -259,8 +248,7 @@ def small_motions(rig, shape, frame="free"):
     out of it, then the support's offsets if it yields. In the free frame links keep what turns about their own axes; in
     the driven one, without motions out of the plane, they turn with it."""
     with mp.workdps(60):
-        given, size = columns(rig), len(rig)
-        rows = [[mp.mpf(float(column[m])) for column in vars(given).values()] for m in range(size)]
+        given, size, rows = columns(rig), len(rig), rows_of(rig)
         g, slides, free = mp.mpf(G), math.isfinite(rig.support.stiffness), frame == "free"
         n = shape.direction * mp.sqrt(g / mp.mpf(float(shape.conical_height)))
         rest = [mp.mpf(float(x)) for x in shape.inclination]
@@ -365,33 +353,38 @@ def small_motions(rig, shape, frame="free"):
     )  # fmt: skip
 
 
-def figure_moments(rig, shape, sense=1):
-    """Derivative of the effective potential by each inclination, over weight times length, in 50 digits.
+def balance(rows, n, place, turns=False, radius=0, stiffness=0, carriage=0):
+    """What is unbalanced in a steady shape at a speed: the moment about each upper pin and, on a spring, the force on
+    the support; with it the sideways pull at each upper pin and the weight below it. `place`: inclinations, lowest
+    first, then the offset of a support on a spring."""
+    size, rate = len(rows), n * n / mp.mpf(G)
+    sine, cosine = ([f(x) for x in place[:size]] for f in (mp.sin, mp.cos))
+    top = place[size] if len(place) > size else radius
+    moment, pull, hung = ([mp.mpf(0)] * size for _ in range(3))
+    for m, (w, _, h, rho, p, c, fluid, hf, rf, added) in enumerate(rows):
+        for bears, moves, depth, turn in ((w, w, h, rho), (-fluid, added - (fluid if turns else 0), hf, rf)):
+            y = top + depth * sine[m] + sum(rows[r][1] * sine[r] for r in range(m + 1, size))
+            for r in range(m, size):
+                arm = depth if r == m else rows[r][1]
+                moment[r] += arm * (bears * sine[r] - moves * rate * y * cosine[r])
+                pull[r] += moves * rate * y
+                hung[r] += bears
+            moment[m] -= moves * rate * turn**2 * sine[m] * cosine[m]
+        moment[m] += (p + c * n * cosine[m] / mp.mpf(G)) * n * sine[m]  # angular momentum along the axis, turned at n
+    force = [pull[-1] + carriage * rate * top - stiffness * (top - radius)] if len(place) > size else []
+    return [*moment, *force], pull, hung
 
-    The support is where the shape has it; where it slides, the last number is the balance of the slide."""
+
+def figure_moments(rig, shape, sense=1):
+    """The largest of what is unbalanced in a shape, over weight times length, in 50 digits."""
     with mp.workdps(50):
-        given, size = columns(rig), len(rig)
-        height, g = mp.mpf(float(shape.conical_height)), mp.mpf(G)
-        n = sense * mp.sqrt(g / height)
-        angle = [mp.mpf(float(x)) for x in shape.inclination]
-        sine, cosine = [mp.sin(x) for x in angle], [mp.cos(x) for x in angle]
-        rows = [[mp.mpf(float(column[m])) for column in vars(given).values()] for m in range(size)]
-        a, top = [row[1] for row in rows], mp.mpf(float(shape.offset[-1]))
-        moment, across = [mp.mpf(0)] * size, mp.mpf(0)
-        for m, (w, _, h, rho, p, c, b, hb, rb, added) in enumerate(rows):
-            parts = [(w, w, h, rho), (-b, (-b if rig.fluid == "turning" else 0) + added, hb, rb)]
-            for bears, whirls, depth, turn in parts:
-                y = top + depth * sine[m] + sum(a[r] * sine[r] for r in range(m + 1, size))
-                across += whirls * y / height
-                for r in range(m, size):
-                    arm = depth if r == m else a[r]
-                    moment[r] += bears * arm * sine[r] - whirls * y * arm * cosine[r] / height
-                moment[m] -= whirls * turn**2 * sine[m] * cosine[m] / height
-            moment[m] += (p + c * n * cosine[m] / g) * n * sine[m]  # angular momentum along the axis, turned at n
-        scale = sum(row[0] for row in rows) * sum(a)
-        answer = [float(abs(x) / scale) for x in moment]
-        if math.isfinite(rig.support.stiffness):
-            across += mp.mpf(rig.support.carriage) * top / height
-            balance = across - mp.mpf(rig.support.stiffness) * (top - mp.mpf(rig.support.radius))
-            answer.append(float(abs(balance) * sum(a) / scale))
-        return max(answer)
+        support, rows = rig.support, rows_of(rig)
+        n = sense * mp.sqrt(mp.mpf(G) / mp.mpf(float(shape.conical_height)))
+        place = [mp.mpf(float(x)) for x in (*shape.inclination, shape.offset[-1])]
+        if math.isfinite(support.stiffness):
+            held = {"radius": support.radius, "stiffness": support.stiffness, "carriage": support.carriage}
+        else:
+            held = {"radius": place.pop()}  # where the shape has it
+        whole, length = sum(row[0] for row in rows), sum(row[1] for row in rows)
+        gaps, _, _ = balance(rows, n, place, rig.fluid == "turning", **{name: mp.mpf(x) for name, x in held.items()})
+        return float(max(abs(x) / (whole * (length if i < len(rows) else 1)) for i, x in enumerate(gaps)))
