@@ -43,17 +43,6 @@ def test_reference_methods_agree_within_their_own_bounds(exact_heights, worst_in
         assert worst_in_bounds(result, exact_heights(chain)) <= 1
 
 
-@given(chains())
-def test_counting_agrees_with_the_modes(chain):
-    result = rc.modes(chain)
-    width = 2 * result.error_bound
-    above = rc.count_modes(chain, conical_height=result.conical_height * (1 + width))
-    below = rc.count_modes(chain, conical_height=result.conical_height * (1 - width))
-    index = np.arange(len(result))
-    # coincident heights may share a bracket: never fewer below than above, and k - 1 < k between
-    assert (above <= index).all() and (below >= index + 1).all()
-
-
 @given(chains(), st.floats(0.1, 100.0), st.floats(0.01, 100.0))
 def test_counting_by_speed_is_counting_by_height(chain, speed, gravity):
     height = rc.conical_pendulum.height(speed, gravity)
@@ -78,12 +67,6 @@ def test_shapes(chain):
         signs = np.sign(shape[:-1])
         signs = signs[signs != 0]
         assert len(nodes) == (signs[1:] != signs[:-1]).sum()
-
-
-@given(st.lists(st.floats(0.1, 10.0), min_size=2, max_size=8))
-def test_mode_k_of_plummets_has_k_minus_one_nodes(weight):
-    result = rc.modes(rc.Chain(weight=weight, length=1.0))
-    assert [nodes.size for nodes in result.nodes] == list(range(len(weight)))
 
 
 def test_shapes_satisfy_relation_21():
@@ -322,11 +305,6 @@ def test_equal_results():
     for other in ({"count": 4}, {"certify": True}, {"gravity": 1.62}, {"precision": "extended"}, {"method": "dense"}):
         assert result != rc.modes(chain, **other)
     assert result != rc.modes(rc.Rig(chain)) and result != 3
-
-
-def test_nodes_outlast_offsets_that_underflow():
-    result = rc.modes(rc.Chain.uniform_plummets(500), "all")
-    assert [len(nodes) for nodes in result.nodes] == list(range(500))
 
 
 def test_a_light_link_below_a_heavy_one():
