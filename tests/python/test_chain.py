@@ -108,7 +108,10 @@ def test_what_a_chain_says_of_itself():
 
 
 TWO = {"weight": [1.0, 2.0], "length": [1.0, 1.0]}
+NOT_REAL = {"ragged": [[1.0], [1.0, 2.0]], "booleans": [True, True], "none inside": [1.0, None], "a generator": iter([1.0])}
+NOT_REAL |= {"bytes": b"12", "an array of bytes": bytearray(b"12"), "an object": object(), "huge integer": 10**400}
 BAD = {
+    **{kind: ({"weight": weight, "length": 1.0}, "weight must be a real number") for kind, weight in NOT_REAL.items()},
     "no links": ({"weight": [], "length": []}, "at least one"),
     "nan weight": ({**TWO, "weight": [1.0, NAN]}, r"links\[1\]: weight"),
     "infinite weight": ({**TWO, "weight": [INF, 1.0]}, r"links\[0\]: weight"),
@@ -122,17 +125,9 @@ BAD = {
     "different lengths of arrays": ({"weight": [1.0, 2.0], "length": [1.0, 2.0, 3.0]}, "weight has 2, length has 3"),
     "one number in an array": ({"weight": [1.0, 2.0], "length": [1.0]}, "weight has 2, length has 1"),
     "two dimensions": ({"weight": [[1.0, 2.0]], "length": 1.0}, r"weight must be .* one dimension, got shape \(1, 2\)"),
-    "ragged": ({"weight": [[1.0], [1.0, 2.0]], "length": 1.0}, "weight must be a real number"),
     "strings": ({"weight": ["1", "2"], "length": 1.0}, "weight must be a number, or a number and its unit"),
     "complex": ({**TWO, "length": [1.0 + 0j, 1.0]}, "length must be a real number"),
-    "booleans": ({**TWO, "weight": [True, True]}, "weight must be a real number"),
-    "none inside": ({**TWO, "weight": [1.0, None]}, "weight must be a real number"),
     "masked": ({**TWO, "weight": np.ma.masked_array([1.0, 2.0], [0, 1])}, "masked"),
-    "a generator": ({"weight": iter([1.0]), "length": 1.0}, "weight must be a real number"),
-    "bytes": ({"weight": b"12", "length": 1.0}, "weight must be a real number"),
-    "an array of bytes": ({"weight": bytearray(b"12"), "length": 1.0}, "weight must be a real number"),
-    "an object": ({"weight": object(), "length": 1.0}, "weight must be a real number"),
-    "huge integer": ({"weight": 10**400, "length": 1.0}, "weight must be a real number"),
     "centroid alone": ({**TWO, "centroid": 0.5}, "exactly one of"),
     "centroid with both": ({**TWO, "centroid": 0.5, "pendulum_length": 1.0, "radius_of_gyration": 1.0}, "exactly one of"),
     "pendulum_length alone": ({**TWO, "pendulum_length": 1.0}, "needs centroid"),
