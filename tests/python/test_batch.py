@@ -52,8 +52,6 @@ def test_defaults_are_those_of_chain(exact_heights):
     + [((4, 5), (4, 1), (4, 5)), ((3, 1, 5), (4, 1), (3, 4, 5)), ((3, 4, 5), (4, 5), (3, 4, 5))]
     + [((1, 4, 5), (3, 1, 1), (3, 4, 5)), ((0, 5), (5,), (0, 5)), ((2, 0, 5), (), (2, 0, 5))],
 )
-
-
 def test_shapes_broadcast_as_in_numpy(weight, length, expected):
     generator = np.random.default_rng(1)
     w, a = generator.uniform(1, 2, weight), generator.uniform(1, 2, length)
@@ -101,8 +99,6 @@ def test_massless_links_need_a_count_where_chains_differ():
         ("radius_of_gyration", -2, "radius of gyration must be finite and not negative, got -2"),
     ],
 )
-
-
 def test_wrong_numbers_are_named(name, value, message):
     batch = random_batch(np.random.default_rng(4), 2, 5, 3)
     batch[name][1, 2, 2] = value
@@ -126,8 +122,6 @@ def test_wrong_numbers_are_named(name, value, message):
         ({"weight": 1, "length": 1, "centroid": 2, "pendulum_length": 1}, r"chain 0: links\[0\]: imaginary radius of gyration"),
     ],
 )
-
-
 def test_wrong_calls(arguments, message):
     with pytest.raises(ValueError, match=message):
         rc.conical_heights(**arguments)

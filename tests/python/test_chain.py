@@ -159,8 +159,6 @@ def test_arguments_have_names():
     [(0,), (-1,), (2.0,), ("2",), (True,), (None,), (10**30,), (2, 0.0), (2, -1.0), (2, NAN), (2, INF), (2, [1.0, 2.0])]
     + [(2, 1.0, 0.0), (2, 1.0, -1.0), (2, 1.0, NAN), (2, 1.0, INF), (2, "1")],
 )
-
-
 def test_uniform_refused(make, arguments):
     with pytest.raises(ValueError, match="uniform_"):
         make(*arguments)
@@ -206,8 +204,6 @@ def test_clamped_pairs():
         *((lambda chain, link=link: chain.clamped(link), "link must") for link in (-1, 2, 1.5)),
     ],
 )
-
-
 def test_wrong_edits(edit, message):
     with pytest.raises(ValueError, match=rf"revchain.*{message}.*, got"):
         edit(rc.Chain(weight=[1.0, 2.0, 3.0], length=[0.5, 0.4, 0.3]))

@@ -228,8 +228,6 @@ def shapes_of(**asked):
         *((lambda x=x: shapes_of()[0].along(x), "between 0 and the length") for x in (-0.1, 1.1, math.nan, [0.5, 2.0])),
     ],
 )
-
-
 def test_wrong_calls(ask, message):
     with pytest.raises(ValueError, match=message):
         ask()
@@ -238,8 +236,6 @@ def test_wrong_calls(ask, message):
 @pytest.mark.parametrize(
     "ask", [lambda function: rc.swing(TIP, 0.0, offset=function), lambda function: rc.Cord(1.0, density=function)]
 )
-
-
 def test_an_error_of_a_function_comes_through(ask):
     def broken(s):
         raise KeyError("no such place")

@@ -89,8 +89,6 @@ def test_numbers_of_the_paper():
      {"density": 1.0, "tip_weight": 0.3}, {"density": lambda s: 1 + (s > 0.2) + s}],
     ids=["uniform", "light tip", "tip", "heavy tip", "thin", "thick", "power with tip", "function"],
 )  # fmt: skip
-
-
 def test_vertical_points_part_the_nodes(given_):
     """One above each node; there the slope is 0, and the slope is that of the offset."""
     length = 0.7
@@ -157,8 +155,6 @@ def test_places_of_one_number_and_of_many():
         ),
     ],
 )
-
-
 def test_bad_input_is_named(call, message):
     with pytest.raises(ValueError) as caught:
         call()

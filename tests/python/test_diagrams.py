@@ -159,8 +159,6 @@ def test_words():
         ([1, 1], [[0, 1, 2, 3]], 1.0, "place must be a list of numbers"),
     ],
 )
-
-
 def test_wrong_polygons(weight, place, pull, message):
     for call in (rc.funicular_polygon, rc.transverse_modes):
         with pytest.raises(ValueError, match=f"{message}.*, got ") as error:
@@ -246,8 +244,6 @@ def test_a_bell_and_its_clapper_one_piece_and_not():
         *(({"lower_centroid": value}, "must not be more than 1e77 apart") for value in (1e-300, 1e300)),
     ],
 )
-
-
 def test_wrong_links(change, message):
     for call in (two_links.jointed_links, partial(two_links.jointed_links_shapes, height=0.1)):
         with pytest.raises(ValueError, match=message):

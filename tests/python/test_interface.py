@@ -326,8 +326,6 @@ def test_numbers_with_units():
         (lambda: rc.Cord("2 kg"), r"length must be a length"),
     ],
 )
-
-
 def test_wrong_units(ask, message):
     pytest.importorskip("pint")
     with pytest.raises(ValueError, match=message):
@@ -412,8 +410,6 @@ def test_classes_of_results_can_be_imported(repository):
         (lambda: rc.modes(POINTS).uncertainty(mass="abc %"), r'mass must be a number, or a part of it such as "5 %"'),
     ],
 )
-
-
 def test_messages(ask, message):
     with pytest.raises(ValueError, match=message):
         ask()

@@ -185,8 +185,6 @@ METHODS = "of bisection, condensed, aberth, interpolated, dense, recurrence, .*c
         ({"precision": "extended", "method": "dense"}, "double only"),
     ],
 )
-
-
 def test_refused(arguments, message):
     rods = rc.Chain.uniform_rods(40, length=0.36)
     with pytest.raises(ValueError, match=f"revchain.*modes: .*{message}"):
@@ -216,8 +214,6 @@ def test_count_modes_shapes():
     + [{"angular_speed": value} for value in (0.0, -1.0, NAN)],
     ids=repr,
 )
-
-
 def test_count_modes_refused(arguments):
     with pytest.raises(ValueError, match="revchain"):
         rc.count_modes(rc.Chain.uniform_rods(3), **arguments)

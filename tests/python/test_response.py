@@ -196,8 +196,6 @@ def test_rig(chain):
         ({"conical_height": 1.0, "pins": [[1]]}, "pins must be one number or a list"),
     ],
 )
-
-
 def test_wrong_response(chain, given, message):
     with pytest.raises(ValueError, match=rf"revchain(\.|::)response: .*{message}"):
         rc.response(chain, **given)
@@ -310,8 +308,6 @@ def test_a_plucked_chain_let_go_in_full():
         *(({"count": count}, "count must be") for count in (-1, 6, 2**70, 1.5)),
     ],
 )
-
-
 def test_wrong_swing(chain, given, message):
     with pytest.raises(ValueError, match=r"swing: .*" + message):
         rc.swing(chain, **{"time": 0.0, "offset": [0.1] * 5} | given)

@@ -3,6 +3,7 @@
 from elsewhere, what is refused, pictures."""
 
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 
 import mpmath as mp
 import numpy as np
@@ -75,8 +76,6 @@ def test_long_chains_far_from_the_vertical_are_complete(count, over, rods):
     [(1, 2.0, 1), (2, 166.0, 2), (3, 166.0, 5), (4, 166.0, 10), (6, 187.5, 56), (8, 16.0, 19), (8, 35.4025, 84),
      (10, 50.0, 412)],
 )
-
-
 def test_counts_known_from_elsewhere(count, ratio, shapes):
     found = rc.steady_shapes(plummets(count), conical_height=1 / ratio)
     assert found.complete and len(found) == shapes and found.cells > 0
@@ -249,13 +248,11 @@ def test_stability_of_known_shapes():
 
 
 def questions(chain):
-    """All that is asked at a speed."""
+    """All that is asked at a speed, or down to it."""
     ends = {"conical_height": "min_conical_height", "angular_speed": "max_angular_speed"}
-    return (
-        lambda **k: rc.steady_shapes(chain, **k),
-        lambda **k: rc.steady_shape(chain, **k),
-        lambda **k: rc.branch(chain, 1, **{ends.get(name, name): k[name] for name in k}),
-    )
+    until = lambda ask: lambda **k: ask(**{ends[name]: k[name] for name in k})  # noqa: E731
+    shapes = partial(rc.steady_shapes, chain), partial(rc.steady_shape, chain)
+    return *shapes, until(partial(rc.branch, chain, 1)), until(partial(rc.branches, chain))
 
 
 @pytest.mark.parametrize("value", [0, -1, float("nan"), float("inf"), "x", [0.1], True, 1j])
@@ -271,9 +268,8 @@ def test_bad_speeds(name, value):
 
 def test_both_or_no_speed():
     chain = plummets(2)
-    for call in (*questions(chain), rc.branch(chain, 1, min_conical_height=0.1).at, lambda **k: rc.branches(
-            chain, **{f"{'min' if 'height' in name else 'max'}_{name}": k[name] for name in k})):  # fmt: skip
-        both = "(min_)?conical_height and (max_)?angular_speed"
+    both = "(min_)?conical_height and (max_)?angular_speed"
+    for call in (*questions(chain), rc.branch(chain, 1, min_conical_height=0.1).at):
         for given, got in (({}, "none"), ({"conical_height": 0.1, "angular_speed": 1.0}, both)):
             with pytest.raises(ValueError, match=rf"exactly one of \w*conical_height.* and \w+, got {got}$"):
                 call(**given)
@@ -284,11 +280,11 @@ def test_both_or_no_speed():
 
 @pytest.mark.parametrize("mode", [0, -1, 4, 1.0, 1.5, "x", None, True, 10**30])
 def test_bad_modes(mode):
-    message = {"mode must be from 1 to the number of modes, 3": [4], "mode must be at least 1": [0, -1]}
-    said = next((text for text, values in message.items() if type(mode) is int and mode in values), "mode must|mode is")
-    with pytest.raises(ValueError, match=said):
+    least = "mode must be at least 1"
+    words = {4: "mode must be from 1 to the number of modes, 3", 0: least, -1: least}.get(mode, "mode must|mode is")
+    with pytest.raises(ValueError, match=words):
         rc.steady_shape(plummets(3), mode=mode, conical_height=0.1)
-    with pytest.raises(ValueError, match=said):
+    with pytest.raises(ValueError, match=words):
         rc.branch(plummets(3), mode, min_conical_height=0.1)
 
 

@@ -110,8 +110,6 @@ def test_the_page_names_no_other_file(tmp_path):
 @pytest.mark.parametrize(
     "kind", ["modes", "modes of a rig", "shapes of a carousel", "shapes on arms", "branches", "swing", "response"]
 )
-
-
 def test_a_browser_shows_all_of_it(kind, tmp_path):
     found = ALL[kind]()
     path = page_of(found, tmp_path, duration=2.0)
