@@ -168,11 +168,10 @@ def in_both_formats():
 
 @pytest.mark.parametrize(("name", "ending"), [*in_both_formats()])
 def test_every_kind_of_result(tmp_path, name, ending):
-    result = RESULTS[name]()
-    path = tmp_path / f"result{ending}"
+    result, path = RESULTS[name](), tmp_path / f"result{ending}"
     names = [field for field in type(result)._fields if hasattr(result, field)]  # not what such a system does not have
-    fields = {field: getattr(result, field) for field in names}
-    assert all(getattr(result, field) is value for field, value in fields.items() if isinstance(value, np.ndarray))
+    arrays = {field: value for field in names if isinstance(value := getattr(result, field), np.ndarray)}
+    assert all(getattr(result, field) is value and not value.flags.writeable for field, value in arrays.items())
     result.save(path)
     twins = [pickle.loads(pickle.dumps(result, protocol)) for protocol in (0, 2, pickle.HIGHEST_PROTOCOL)]
     rc.load(path).save(path)  # over itself
@@ -181,17 +180,16 @@ def test_every_kind_of_result(tmp_path, name, ending):
         assert repr(twin) == repr(result) and twin._repr_html_() == result._repr_html_()
         assert json.dumps(twin.to_dict()) == json.dumps(result.to_dict())
         assert twin.to_dataframe().equals(result.to_dataframe()) and twin.to_xarray().equals(result.to_xarray())
-        for field, value in fields.items():
-            if isinstance(value, np.ndarray):
-                assert not value.flags.writeable and not getattr(twin, field).flags.writeable
-                assert getattr(twin, field).dtype == value.dtype
+        for field, value in arrays.items():
+            again = getattr(twin, field)
+            assert not again.flags.writeable and again.dtype == value.dtype
         if isinstance(getattr(result, "system", None), rc.Chain):  # one number stays one number
             assert twin.system.length.strides == result.system.length.strides
         for change, *value in ((setattr, 1), (delattr,)):
             for field in ("anything", names[0]):
                 with pytest.raises(AttributeError, match="cannot be changed"):
                     change(twin, field, *value)
-    assert [entry.name for entry in tmp_path.iterdir()] == [path.name]
+    assert [*tmp_path.iterdir()] == [path]
 
 
 @pytest.mark.parametrize("name", RESULTS)
@@ -368,14 +366,14 @@ def test_arrays_that_do_not_go_together(npz, name):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("ending", [".npz", ".nc"])
-def test_a_full_disk(python, tmp_path, ending):
+def test_a_full_disk(python, ending):
     """Wherever it is full: an OSError that names the output, nothing left, and the process goes on to its end."""
     program = """
 
 
 import errno, os, resource, sys
 import revchain as rc
-path, ending = "result" + sys.argv[1], sys.argv[1]
+path = "result" + sys.argv[1]
 result = rc.modes(rc.Chain.uniform_rods(200), count=100)
 result.shape
 result.save(path)
@@ -404,8 +402,7 @@ def test_folder_that_cannot_be_written(tmp_path, place):
     (tmp_path / "file").write_text("a file, no folder")
     with pytest.raises(OSError) as caught:
         rc.modes(CHAIN).save(tmp_path / place)
-    assert caught.value.filename == str(tmp_path / place)
-    assert [entry.name for entry in tmp_path.iterdir()] == ["file"]
+    assert caught.value.filename == str(tmp_path / place) and [*tmp_path.iterdir()] == [tmp_path / "file"]
 
 
 def test_failure_in_the_middle_leaves_the_old_file(path, monkeypatch):
@@ -430,31 +427,29 @@ def test_several_files_appear_together(tmp_path):
         second.write_text("half")
         assert one.read_text() == "old" and not two.exists()
         raise KeyboardInterrupt
-    assert one.read_text() == "old"
-    assert [entry.name for entry in tmp_path.iterdir()] == ["one"]
+    assert one.read_text() == "old" and [*tmp_path.iterdir()] == [one]
     with _files.written_aside(one, two) as [first, second]:
         first.write_text("new")
         second.write_text("new too")
-    assert one.read_text() == "new" and two.read_text() == "new too"
-    assert len(list(tmp_path.iterdir())) == 2
+    assert one.read_text() == "new" and two.read_text() == "new too" and {*tmp_path.iterdir()} == {one, two}
 
 
 def test_links_devices_and_permissions(tmp_path):
-    target, link = tmp_path / "target.txt", tmp_path / "link.txt"
+    def write(path, text):
+        with _files.written_aside(path) as [aside]:
+            aside.write_text(text)
+
+    target, link, plain = (tmp_path / f"{name}.txt" for name in ("target", "link", "plain"))
     target.write_text("old")
     link.symlink_to(target)
-    with _files.written_aside(link) as [aside]:
-        aside.write_text("new")
+    write(link, "new")
     assert link.is_symlink() and target.read_text() == "new"
-    with _files.written_aside("/dev/null") as [aside]:
-        aside.write_text("nothing")
+    write("/dev/null", "nothing")
     assert not os.path.isfile("/dev/null") and os.path.exists("/dev/null")
-    with pytest.raises(IsADirectoryError), _files.written_aside(tmp_path):
-        pass
-    plain = tmp_path / "plain.txt"
+    with pytest.raises(IsADirectoryError):
+        write(tmp_path, "")
     plain.write_text("")
-    with _files.written_aside(tmp_path / "new.txt") as [aside]:
-        aside.write_text("")
+    write(tmp_path / "new.txt", "")
     assert (tmp_path / "new.txt").stat().st_mode == plain.stat().st_mode  # the umask, as for any other file
 
 
