@@ -20,11 +20,6 @@ def rig(chain=POINT, **given):
     return rc.Rig(chain, **given)
 
 
-SPRING = {"support": rc.Support(stiffness=90.0, mass=0.7)}
-WHEEL = {"flywheels": rc.Flywheel(mass=0.4, radius_of_gyration=0.3, spin=50.0)}
-DRIVEN = {"flywheels": rc.Flywheel(mass=0.4, radius_of_gyration=0.3, spin=50.0, driven=True)}
-
-
 def carriage(n, m=2, a=1.5, e=90):
     """Of a point mass below a carriage: (e + k - M n^2) (k - m n^2) = k^2, k = m g / a."""
     k = m * mp.mpf(G) / a
@@ -37,25 +32,24 @@ def momentum(n):
 
 
 MASS, RADIUS, SPIN = mp.mpf(0.4), mp.mpf(0.3), 50
-FIRM, SOFT = rig(), rig(support=rc.Support(stiffness=90.0))
+FIRM, SOFT, CARRIED = rig(), rig(support=rc.Support(stiffness=90.0)), rig(support=rc.Support(stiffness=90.0, mass=0.7))
+SPUN, LED = (
+    rig(flywheels=rc.Flywheel(mass=0.4, radius_of_gyration=0.3, spin=50.0, driven=driven)) for driven in (False, True)
+)
+FLOATING, MOVED = (rig(displaced=rc.Displaced(**given)) for given in ({"mass": 0.5}, {"mass": 0.0, "added_mass": 0.5}))
 CLOSED = {  # system, path, mode, speed, the value in closed form
     "length on a spring": (SOFT, "length", 1, 2.0, lambda n: G / n**2 - 2 * mp.mpf(G) / 90),
     "mass on a spring": (SOFT, "mass", 1, 2.0, lambda n: (G / n**2 - mp.mpf(1.5)) * 90 / G),
     "the only link's mass": (SOFT, "links[0].mass", 1, 2.0, lambda n: (G / n**2 - mp.mpf(1.5)) * 90 / G),
-    "carriage": (rig(**SPRING), "support.mass", 1, 2.3, carriage),
-    "carriage, faster mode": (rig(**SPRING), "support.mass", 2, 11.0, carriage),
-    "wheel's mass": (rig(**WHEEL), "flywheels[0].mass", 1, 3.2, lambda n: momentum(n) / (RADIUS**2 * SPIN)),
-    "wheel's radius": (
-        rig(**WHEEL), "flywheels[0].radius_of_gyration", 1, -2.4, lambda n: mp.sqrt(momentum(n) / (MASS * SPIN))
-    ),
-    "spin": (rig(**WHEEL), "flywheels[0].spin", 1, -2.4, lambda n: momentum(n) / (MASS * RADIUS**2)),
-    "spin of a driven wheel": (rig(**DRIVEN), "flywheels[0].spin", 1, 3.2, lambda n: momentum(n) / (MASS * RADIUS**2) - n),
-    "mass of a driven wheel": (rig(**DRIVEN), "flywheels[0].mass", 1, 3.2, lambda n: momentum(n) / (RADIUS**2 * (SPIN + n))),
-    "float": (rig(displaced=rc.Displaced(mass=0.5)), "displaced[0].mass", 1, 2.0, lambda n: 2 * (1 - n**2 * mp.mpf(1.5) / G)),
-    "added mass": (
-        rig(displaced=rc.Displaced(mass=0.0, added_mass=0.5)), "displaced[0].added_mass", 1, 2.0,
-        lambda n: 2 * mp.mpf(G) / (mp.mpf(1.5) * n**2) - 2
-    ),
+    "carriage": (CARRIED, "support.mass", 1, 2.3, carriage),
+    "carriage, faster mode": (CARRIED, "support.mass", 2, 11.0, carriage),
+    "wheel's mass": (SPUN, "flywheels[0].mass", 1, 3.2, lambda n: momentum(n) / (RADIUS**2 * SPIN)),
+    "wheel's radius": (SPUN, "flywheels[0].radius_of_gyration", 1, -2.4, lambda n: mp.sqrt(momentum(n) / (MASS * SPIN))),
+    "spin": (SPUN, "flywheels[0].spin", 1, -2.4, lambda n: momentum(n) / (MASS * RADIUS**2)),
+    "spin of a driven wheel": (LED, "flywheels[0].spin", 1, 3.2, lambda n: momentum(n) / (MASS * RADIUS**2) - n),
+    "mass of a driven wheel": (LED, "flywheels[0].mass", 1, 3.2, lambda n: momentum(n) / (RADIUS**2 * (SPIN + n))),
+    "float": (FLOATING, "displaced[0].mass", 1, 2.0, lambda n: 2 * (1 - n**2 * mp.mpf(1.5) / G)),
+    "added mass": (MOVED, "displaced[0].added_mass", 1, 2.0, lambda n: 2 * mp.mpf(G) / (mp.mpf(1.5) * n**2) - 2),
     "tension": (rc.Held(PAIR, tension=60.0), "tension", 1, 7.0, lambda n: (3 * n**2 + 3 * mp.mpf(G)) / 2),
     "length under a tension": (rc.Held(PAIR, tension=60.0), "length", 1, 7.0, lambda n: 2 * (120 - 3 * mp.mpf(G)) / (3 * n**2)),
     "length of a cord": (rc.Cord(2.0, mass=1.0), "length", 1, 3.0, lambda n: G / n**2 * (mp.besseljzero(0, 1) / 2) ** 2),
@@ -152,10 +146,9 @@ def test_a_value_past_a_jump_of_the_numbers_is_none():
 
 
 def test_where_to_look_and_what_was_seen():
-    on_spring = rig(**SPRING)
-    narrow = rc.tune(on_spring, vary="support.mass", angular_speed=2.3, between=("1 kg", "20 kg"))
+    narrow = rc.tune(CARRIED, vary="support.mass", angular_speed=2.3, between=("1 kg", "20 kg"))
     assert narrow.between == (1.0, 20.0) and not narrow.complete
-    none = rc.tune(on_spring, vary="support.mass", angular_speed=3.0)
+    none = rc.tune(CARRIED, vary="support.mass", angular_speed=3.0)
     assert none.status == "undecided" and none.system is None and none.reachable[0] > G / 9
     light = rc.modes(rig(support=rc.Support(stiffness=90.0, mass=0.7e-3)), 1)
     assert none.reachable[0] == pytest.approx(G / light.angular_speed[0] ** 2)
@@ -173,7 +166,7 @@ def test_where_to_look_and_what_was_seen():
         (PAIR, {"vary": "mass"}, 'ratios alone; vary "links\\[k\\].mass"'),
         (FIRM, {"vary": "flywheels[0].spin"}, 'vary must be one of .*"flywheels\\[k\\].momentum" of a Rig, got'),
         (FIRM, {"vary": "links[4].mass"}, "the highest is links\\[0\\]"),
-        (rig(**SPRING), {"vary": "support.mass", "mode": 3}, "mode must be from 1 to 2, the number of modes in a direction, got 3"),
+        (CARRIED, {"vary": "support.mass", "mode": 3}, "mode must be from 1 to 2, the number of modes in a direction, got 3"),
         (rc.Held(PAIR, tension=60.0), {"vary": "tension", "mode": 3}, "mode must be from 1 to 1, the number of modes, got 3"),
         (rc.Held(PAIR, tension=60.0), {"vary": "span"}, 'vary must be one of .*"tension" of a Held'),
         (rc.Held(PAIR, span=1.0), {"vary": "tension"}, "is bent.*give top_tension"),
@@ -181,9 +174,9 @@ def test_where_to_look_and_what_was_seen():
         (rc.Held(PAIR, span=1.0), {"vary": "span", "top_tension": -1.0}, "top_tension must be positive"),
         (PAIR, {"vary": "length", "top_tension": 40.0}, "top_tension is for a system held at a span; leave it out, got 40"),
         (rc.Cord(1.0), {"vary": "density"}, '"tip_mass" of a Cord'),
-        (rig(**SPRING), {"vary": "support.mass", "between": 3}, "between must be a pair"),
-        (rig(**SPRING), {"vary": "support.mass", "between": ("1 m", 2)}, "mass \\(each end of between\\) must be a mass"),
-        (rig(**SPRING), {"vary": "support.mass", "between": (3.0, 2.0)}, "high end must exceed the low one, got 3 and 2"),
+        (CARRIED, {"vary": "support.mass", "between": 3}, "between must be a pair"),
+        (CARRIED, {"vary": "support.mass", "between": ("1 m", 2)}, "mass \\(each end of between\\) must be a mass"),
+        (CARRIED, {"vary": "support.mass", "between": (3.0, 2.0)}, "high end must exceed the low one, got 3 and 2"),
         (FIRM, {"vary": "support.stiffness", "between": (1.0, 2.0)}, "between is for a search, and support.stiffness has one value"),
         (rig(flywheels=rc.Flywheel(mass=0.0, radius_of_gyration=1.0, spin=0.0)), {"vary": "flywheels[0].spin"}, "has no moment of inertia"),
     ],
