@@ -50,13 +50,21 @@ def test_what_is_asked_comes_back(make, links, mode):
             assert np.abs(again.inclination - shape.inclination).max() <= 1e-13, name
 
 
+def test_the_diagram_holds_every_shape_there_is():
+    """Of other chains: tests/cpp/branches.cpp."""
+    diagram = rc.branches(plummets(4), min_conical_height=0.015)
+    assert diagram.consistent and diagram.complete
+    for height in (0.5, 0.1, 0.03, 0.0201):
+        listed = rc.steady_shapes(plummets(4), conical_height=height)
+        tips = [shape.inclination[0] for branch in diagram for shape in branch.at(conical_height=height)]
+        assert np.allclose(sorted(tips), sorted(shape.inclination[0] for shape in listed), rtol=0, atol=1e-13)
+
+
 def test_a_pair_is_born_on_no_branch_of_the_vertical():
     diagram = rc.branches(plummets(3), max_angular_speed=5.0, gravity=1.0)
     born = diagram[-1]
-    assert born.mode is None
-    assert [branch.mode for branch in diagram] == [1, 2, 3, None]
+    assert [branch.mode for branch in diagram] == [1, 2, 3, None] and set(born.half_waves.tolist()) == {3}
     assert abs(born.angular_speed[born.folds[0]] - 3.90376215692) <= 1e-11
-    assert set(born.half_waves.tolist()) == {3}
     assert len(born.at(angular_speed=4.5, gravity=1.0)) == 2
     assert born.at(angular_speed=3.9, gravity=1.0) == ()
 

@@ -187,7 +187,8 @@ def test_attached_bodies():
 def test_clamped_pairs():
     """The body of both, and heights between those of the chain: tests/cpp/system/edit.cpp."""
     chain = random_chain(np.random.default_rng(66), 4)
-    got, free = rc.modes(chain.clamped(1)).conical_height, rc.modes(chain).conical_height
+    a, got, free = chain.length, rc.modes(chain.clamped(1)).conical_height, rc.modes(chain).conical_height
+    assert chain.clamped(1).length == pytest.approx([a[0], a[1] + a[2], a[3]], rel=1e-15)
     assert np.all(got <= free[:3] * (1 + 4 * 2.0**-52)) and np.all(got >= free[1:] * (1 - 4 * 2.0**-52))
     rods = rc.Chain.uniform_rods(3, length=3.0, weight=3.0).clamped(0).clamped(0)
     assert rc.modes(rods).conical_height == pytest.approx([2.0], rel=1e-15)
