@@ -117,6 +117,7 @@ def test_the_energy_of_weights_swung_sideways():
 
 
 def test_pictures(tmp_path):
+    """Seconds: the letters are formulas, which matplotlib sets slowly."""
     pytest.importorskip("matplotlib")
     shape = shapes_of(random_chain("plummets", 4, 3), 0.15)[0]
     figure, forces = shape.force_diagram().plot()

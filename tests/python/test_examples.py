@@ -266,7 +266,7 @@ def is_slow(path):
 
 @pytest.mark.parametrize("path", [pytest.param(path, marks=[pytest.mark.slow] * is_slow(path), id=path.stem) for path in PROGRAMS])
 def test_programs(python, tmp_path, path):
-    """Each program is run once, and all that is known of its output is checked here."""
+    """Each program is run once, in seconds, and all that is known of its output is checked here."""
     if path in GALLERY:
         printed = run_alone(python, path, tmp_path)
     else:
@@ -329,7 +329,9 @@ PAGES = [path for path in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda path: path.stem)
 def test_python_of_pages(python, tmp_path, page):
-    """Each block of a page runs, one after the other, and prints the text block that follows it."""
+    """Each block of a page runs, one after the other, and prints the text block that follows it.
+
+    Seconds for a page: an interpreter starts, and draws what the page draws."""
     blocks = re.findall(r"```python\n(.*?)```\n(?:\n```text\n(.*?)```\n)?", page.read_text("utf-8"), re.DOTALL)
     assert blocks
     (tmp_path / "examples").symlink_to(ROOT / "examples")
@@ -364,6 +366,7 @@ def test_table_of_questions():
 
 
 def test_scene_of_the_first_page_of_scenes(python, tmp_path):
+    """As a program, which draws: seconds."""
     [text] = re.findall(r"```toml\n(.*?)```", (ROOT / "docs/howto/scene.md").read_text("utf-8"), re.DOTALL)
     (tmp_path / "crane.toml").write_text(text, "utf-8")
     done = python("-m", "revchain", "run", "crane.toml")

@@ -55,6 +55,7 @@ def is_link(node):
 
 @pytest.mark.parametrize("kind", ALL)
 def test_glb_is_whole(kind, tmp_path):
+    """Seconds for the branch of a held cord, which is followed first."""
     found = ALL[kind]()
     file = saved(found, tmp_path / "solid.glb")
     assert file.asset.version == "2.0" and len(file.scenes) == 1 and file.scene == 0
