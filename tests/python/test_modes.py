@@ -279,14 +279,6 @@ def test_python_runs_on_while_modes_are_computed():
     assert 0 < seen < 1 and isinstance(raised.value, RuntimeError)
 
 
-def test_threads_share_a_chain():
-    chain = rc.Chain.uniform_rods(2000)
-    expected = rc.modes(chain, count=5).conical_height
-    with ThreadPoolExecutor(8) as pool:
-        for result in pool.map(lambda _: rc.modes(chain, count=5), range(8)):
-            assert np.array_equal(result.conical_height, expected)
-
-
 def test_equal_results():
     chain = rc.Chain.uniform_rods(5)
     result = rc.modes(chain)

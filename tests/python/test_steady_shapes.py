@@ -2,7 +2,6 @@
 """Steady shapes, their lists and their stability, against mechanics written out in support/mechanics.py; figures known
 from elsewhere, what is refused, pictures."""
 
-from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 
 import mpmath as mp
@@ -178,16 +177,6 @@ def test_a_list_is_a_sequence():
     found = rc.steady_shapes(plummets(4), conical_height=0.0625)
     by_speed = rc.steady_shapes(plummets(4), angular_speed=4.0, gravity=1.0)
     assert all(np.array_equal(x.inclination, y.inclination) for x, y in zip(found, by_speed, strict=True))
-
-
-def test_threads():
-    def asked(_):
-        shapes = rc.steady_shapes(plummets(8), conical_height=1 / 35.4025)
-        shapes[3].stability()
-        return np.array([s.inclination for s in shapes])
-
-    with ThreadPoolExecutor(6) as pool:
-        assert all(np.array_equal(asked(0), found) for found in pool.map(asked, range(6)))
 
 
 def test_absurd_speeds_end():
