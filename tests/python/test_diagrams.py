@@ -30,6 +30,9 @@ def test_what_the_diagram_says(kind, share):
         diagram = shape.force_diagram()
         x, height = shape.offset[:-1], shape.conical_height
         assert np.array_equal(diagram.pin, np.stack([shape.offset, shape.height], axis=1))
+        for name in ("load", "ray", "reaction"):
+            columns = [getattr(diagram, f"{name}_{axis}") for axis in "xz"]
+            assert np.array_equal(getattr(diagram, name), np.stack(columns, axis=1))
         assert abs(sine(np.diff(diagram.pin, axis=0), diagram.ray)).max() < 1e-12  # OQ_m is parallel to link m
         np.testing.assert_allclose(np.hypot(*diagram.reaction.T), shape.tension, rtol=1e-12)
         leaning = np.arctan2(-diagram.reaction[:, 0], diagram.reaction[:, 1])
