@@ -52,9 +52,9 @@ def test_the_pace():
 @pytest.mark.parametrize("kind", ["shapes", "shapes of a carousel", "shapes of a blade", "shapes on arms", "shape"])
 def test_shapes_are_true_to_scale(kind):
     found = ALL[kind]()
-    shapes = [found] if kind == "shape" else found
-    shown = film(found, figures=None if kind == "shape" else [len(shapes) - 1, 0])
-    for figure, shape in zip(shown.figures, [shapes[0]] if kind == "shape" else [shapes[-1], shapes[0]], strict=True):
+    shapes = [found] if kind == "shape" else [found[-1], found[0]]
+    shown = film(found, figures=None if kind == "shape" else [len(found) - 1, 0])
+    for figure, shape in zip(shown.figures, shapes, strict=True):
         assert np.array_equal(figure.offset[0], shape.offset) and np.array_equal(figure.height[0], shape.height)
         assert figure.speed[0] == shape.angular_speed
 
@@ -89,31 +89,25 @@ def test_a_branch_is_gone_through_from_end_to_end():
 
 
 def test_a_branch_passes_its_folds():
-    isolated = [
-        each
-        for each in rc.branches(rc.Chain.uniform_plummets(3, length=3.0), max_angular_speed=13.0)
-        if each.folds.size
-    ]
+    found = rc.branches(rc.Chain.uniform_plummets(3, length=3.0), max_angular_speed=13.0)
+    isolated = [branch for branch in found if branch.folds.size]
+    assert isolated
     for branch in isolated:
         speeds = film(branch, duration=20.0).figures[0].speed
-        for fold in branch.folds:
-            assert np.abs(speeds - branch.angular_speed[fold]).min() < 1e-3
-    assert isolated
+        assert all(np.abs(speeds - branch.angular_speed[fold]).min() < 1e-3 for fold in branch.folds)
 
 
 def test_a_response_goes_out_at_its_speeds():
     found = ONE["response"]()
-    shown = film(found, duration=81 / 25)
-    [figure] = shown.figures
+    [figure] = film(found, duration=81 / 25).figures
     assert np.allclose(figure.speed, found.angular_speed, rtol=1e-12)
     assert np.allclose(figure.offset.real / figure.scale[:, None], found.offset, rtol=1e-9, atol=1e-12)
     widest = np.abs(figure.offset).max(axis=1)
     assert widest.max() <= 0.25 * CHAIN.total_length * (1 + 1e-12) and np.ptp(figure.scale) > 0
     assert figure.captions[-1].endswith(f"offsets {figure.scale[-1]:.3g}:1")
-    resonant = rc.response(
-        CHAIN, angular_speed=[3.0, float(rc.modes(CHAIN).angular_speed[0]), 4.0], support_radius=0.01
-    )
-    assert np.isfinite(film(resonant).figures[0].offset).all()
+    resonant = [3.0, float(rc.modes(CHAIN).angular_speed[0]), 4.0]
+    driven = rc.response(CHAIN, angular_speed=resonant, support_radius=0.01)
+    assert np.isfinite(film(driven).figures[0].offset).all()
 
 
 @pytest.mark.parametrize("kind", ["swing", "rig swing", "whirl swing", "cord swing"])
@@ -131,9 +125,8 @@ def test_bodies_are_on_their_links():
     bodies = film(rc.modes(WHEELS)).bodies
     assert bodies.link.tolist() == [0, 1, 2, 3] and np.allclose(bodies.along, 0.5)
     assert bodies.wheel.tolist() == [1, -1, 0, 0]
-    assert bodies.rod[0] == 0 and np.allclose(
-        bodies.rod[1:], np.sqrt(3) * 0.02 / 0.1
-    )  # the first is no rod: it would be longer than the link
+    assert bodies.rod[0] == 0  # it is no rod: it would be longer than the link
+    assert np.allclose(bodies.rod[1:], np.sqrt(3) * 0.02 / 0.1)
     assert film(rc.modes(CHAIN)).names == ("links[0] load", "links[1] $hook$", "links[2] </script>")
     assert film(ONE["cord shape"]()).bodies.along.tolist() == [1.0]
 
@@ -193,22 +186,19 @@ def test_arms_of_a_carousel_are_drawn_with_it():
 
     shown = film(ALL["shapes of a carousel"](), duration=0.4)
     drawing = Drawing(shown)
-    lines = [artist for artist, _ in drawing.moving if hasattr(artist, "get_xdata")]
-    order = {artist: [] for artist in lines}
-    for artist in lines:
-        artist.draw = lambda renderer, artist=artist, draw=artist.draw: (
-            order[artist].append(np.array(artist.get_data())),
+    drawn = {artist: [] for artist, _ in drawing.moving if hasattr(artist, "get_xdata")}
+    for line, places in drawn.items():
+        line.draw = lambda renderer, line=line, places=places, draw=line.draw: (
+            places.append(np.array(line.get_data())),
             draw(renderer),
         )
-    for _ in drawing.frames(lambda done, total: None):
-        pass
-    arms = [order[line] for line in lines if line.get_color() == "0.3"]
-    chains = [order[line] for line in lines if len(line.get_xdata()) == 3 and line.get_color().startswith("C")]
+    assert len([*drawing.frames(lambda done, total: None)]) == shown.frames
+    arms = [places for line, places in drawn.items() if line.get_color() == "0.3"]
+    chains = [places for line, places in drawn.items() if len(line.get_xdata()) == 3 and line.get_color()[0] == "C"]
     assert len(arms) == len(chains) == len(shown.figures)
     for arm, chain in zip(arms, chains, strict=True):
         assert len(arm) == len(chain) == shown.frames
-        for one, other in zip(arm, chain, strict=True):
-            assert np.array_equal(one[:, 1], other[:, -1])
+        assert all(np.array_equal(one[:, 1], other[:, -1]) for one, other in zip(arm, chain, strict=True))
 
 
 def test_mp4(tmp_path):
@@ -239,49 +229,49 @@ def test_ffmpeg_that_fails(tmp_path, monkeypatch):
 # ---- what is refused
 
 
-@pytest.mark.parametrize(
-    ("kind", "given", "words"),
-    [
-        ("modes", {"path": "film.avi"}, r"Modes\.animate: path must end in \.gif, \.mp4, \.html, got film\.avi"),
-        ("modes", {"figures": [4]}, r"mode must be from 1 to 3, got 4"),
-        ("modes", {"figures": []}, r"modes names no mode"),
-        ("modes", {"figures": 1.5}, r"modes must be a list of whole numbers, got 1\.5"),
-        ("modes", {"time_scale": 0.0}, r"time_scale must be positive and finite, got 0"),
-        ("modes", {"duration": -1.0}, r"duration must be positive"),
-        ("modes", {"duration": 1e9}, r"duration times frames_per_second must be at most 20000, got 1e\+09 s at 25"),
-        ("modes", {"frames_per_second": np.inf}, r"frames_per_second must be positive and finite"),
-        ("modes", {"frames_per_second": 1e4}, r"frames_per_second must be from 0\.1 to 1000, got 10000"),
-        ("shapes", {"figures": [9]}, r"SteadyShapes\.animate: figures must be from -\d to \d, got 9"),
-        ("shapes", {"figures": []}, r"figures names no shape"),
-        ("branches", {"figures": [99]}, r"Branches\.animate: figures must be from"),
-        ("shape", {"figures": [0]}, r"SteadyShape\.animate: figures is for several modes, shapes or branches"),
-        ("swing", {"figures": [0]}, r"Swing\.animate: figures is for several"),
-    ],
-)
+REFUSED = [
+    ("modes", {"path": "film.avi"}, r"Modes\.animate: path must end in \.gif, \.mp4, \.html, got film\.avi"),
+    ("modes", {"figures": [4]}, r"mode must be from 1 to 3, got 4"),
+    ("modes", {"figures": []}, r"modes names no mode"),
+    ("modes", {"figures": 1.5}, r"modes must be a list of whole numbers, got 1\.5"),
+    ("modes", {"time_scale": 0.0}, r"time_scale must be positive and finite, got 0"),
+    ("modes", {"time_scale": 1e6}, r"Modes\.animate: no figure may turn more than 5000 times; lower time_scale"),
+    ("modes", {"duration": -1.0}, r"duration must be positive"),
+    ("modes", {"duration": 1e9}, r"duration times frames_per_second must be at most 20000, got 1e\+09 s at 25"),
+    ("modes", {"frames_per_second": np.inf}, r"frames_per_second must be positive and finite"),
+    ("modes", {"frames_per_second": 1e4}, r"frames_per_second must be from 0\.1 to 1000, got 10000"),
+    ("shapes", {"figures": [9]}, r"SteadyShapes\.animate: figures must be from -\d to \d, got 9"),
+    ("shapes", {"figures": []}, r"figures names no shape"),
+    ("branches", {"figures": [99]}, r"Branches\.animate: figures must be from"),
+    ("shape", {"figures": [0]}, r"SteadyShape\.animate: figures is for several modes, shapes or branches"),
+    ("swing", {"figures": [0]}, r"Swing\.animate: figures is for several"),
+    ("modes", {"path": "a.gltf"}, r"Modes\.to_glb: path must end in \.glb, got a\.gltf"),
+    ("modes", {"path": "a.glb", "figures": [0]}, r"Modes\.to_glb: figures|mode must be from 1 to 3, got 0"),
+]
+
+
+@pytest.mark.parametrize(("kind", "given", "words"), REFUSED)
 def test_refused(kind, given, words, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    found = ALL[kind]()
+    path = given.get("path", "film.html")
     with pytest.raises(ValueError, match=words):
-        found.animate(**{"path": "film.html", **given})
+        getattr(ALL[kind](), "to_glb" if path.startswith("a.") else "animate")(**{"path": path, **given})
     assert list(tmp_path.iterdir()) == []
 
 
 def test_nothing_to_show(tmp_path):
-    path = tmp_path / "page.html"
+    driven = rc.response(CHAIN, angular_speed=[3.0, 4.0], pins=[0, 1])
     for found, words in (
         (rc.modes(CHAIN, angular_speed=(0.0, 0.1)), "there are no modes"),
         (rc.steady_shapes(CHAIN, angular_speed=0.1), "there is no shape to draw"),
         (rc.branches(CHAIN, max_angular_speed=0.5), "there is no branch to draw"),
-        (
-            rc.response(CHAIN, angular_speed=[3.0, 4.0], pins=[0, 1]),
-            "every pin is needed; compute the response without pins=",
-        ),
+        (driven, "every pin is needed; compute the response without pins="),
         (rc.response(CHAIN, angular_speed=[]), "no speed to draw that is not a resonance"),
         (rc.swing(CHAIN, [1.0], offset=RELEASED), "needs two times or more"),
     ):
         with pytest.raises(ValueError, match=words):
-            found.animate(path)
-    assert not path.exists()
+            found.animate(tmp_path / "page.html")
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_what_cannot_be_written_leaves_what_was_there(tmp_path):

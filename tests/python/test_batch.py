@@ -48,20 +48,9 @@ def test_defaults_are_those_of_chain(exact_heights):
 
 @pytest.mark.parametrize(
     ("weight", "length", "expected"),
-    [
-        ((), (), (1,)),
-        ((5,), (), (5,)),
-        ((), (5,), (5,)),
-        ((5,), (1,), (5,)),
-        ((4, 5), (5,), (4, 5)),
-        ((4, 1), (5,), (4, 5)),
-        ((4, 5), (4, 1), (4, 5)),
-        ((3, 1, 5), (4, 1), (3, 4, 5)),
-        ((3, 4, 5), (4, 5), (3, 4, 5)),
-        ((1, 4, 5), (3, 1, 1), (3, 4, 5)),
-        ((0, 5), (5,), (0, 5)),
-        ((2, 0, 5), (), (2, 0, 5)),
-    ],
+    [((), (), (1,)), ((5,), (), (5,)), ((), (5,), (5,)), ((5,), (1,), (5,)), ((4, 5), (5,), (4, 5)), ((4, 1), (5,), (4, 5))]
+    + [((4, 5), (4, 1), (4, 5)), ((3, 1, 5), (4, 1), (3, 4, 5)), ((3, 4, 5), (4, 5), (3, 4, 5))]
+    + [((1, 4, 5), (3, 1, 1), (3, 4, 5)), ((0, 5), (5,), (0, 5)), ((2, 0, 5), (), (2, 0, 5))],
 )
 def test_shapes_broadcast_as_in_numpy(weight, length, expected):
     generator = np.random.default_rng(1)
@@ -84,11 +73,9 @@ def test_any_memory_layout():
     assert np.array_equal(rc.conical_heights(weight=w.astype(">f8"), length=1), expected)
 
 
-def test_count_and_threads():
+def test_count():
     batch = random_batch(np.random.default_rng(3), 100, 9)
     heights = rc.conical_heights(**batch)
-    for threads in (2, 5, 1000):
-        assert np.array_equal(rc.conical_heights(**batch, threads=threads), heights)
     assert (abs(rc.conical_heights(**batch, count=2) / heights[:, :2] - 1) <= 4 * ULP).all()
     assert (np.diff(heights) < 0).all()
 
@@ -103,20 +90,19 @@ def test_massless_links_need_a_count_where_chains_differ():
 
 
 @pytest.mark.parametrize(
-    ("changes", "message"),
+    ("name", "value", "message"),
     [
-        ({"weight": math.nan}, r"chain \(1, 2\): links\[2\]: weight must be finite and not negative, got nan"),
-        ({"length": -1}, r"chain \(1, 2\): links\[2\]: length must be positive and finite, got -1"),
-        ({"centroid": math.inf}, r"chain \(1, 2\): links\[2\]: centroid must be finite, got inf"),
-        ({"centroid": -9}, r"chain \(1, 2\): links\[2\]: it would stand, not hang"),
-        ({"radius_of_gyration": -2}, r"chain \(1, 2\): links\[2\]: radius of gyration must be finite and not negative, got -2"),
+        ("weight", math.nan, "weight must be finite and not negative, got nan"),
+        ("length", -1, "length must be positive and finite, got -1"),
+        ("centroid", math.inf, "centroid must be finite, got inf"),
+        ("centroid", -9, "it would stand, not hang"),
+        ("radius_of_gyration", -2, "radius of gyration must be finite and not negative, got -2"),
     ],
 )
-def test_wrong_numbers_are_named(changes, message):
+def test_wrong_numbers_are_named(name, value, message):
     batch = random_batch(np.random.default_rng(4), 2, 5, 3)
-    for name, value in changes.items():
-        batch[name][1, 2, 2] = value
-    with pytest.raises(ValueError, match=message):
+    batch[name][1, 2, 2] = value
+    with pytest.raises(ValueError, match=rf"chain \(1, 2\): links\[2\]: {message}"):
         rc.conical_heights(**batch)
 
 

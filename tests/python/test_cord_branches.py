@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Branches, inverse questions, stability and swing of cords; the numbers themselves are tests/cpp/cord_branches.cpp's."""
+"""Shapes, branches, inverse questions, stability and swing of cords; the numbers themselves are those of tests/cpp:
+cord_branches.cpp, finite/cord/continuous_chain.cpp."""
 
 import math
 
@@ -21,9 +22,9 @@ def test_a_branch_and_its_shapes():
     assert shape.offset[0] == pytest.approx(listed.offset[0], rel=1e-12) and shape.half_waves == 2
     assert branch.at(angular_speed=5.0) == ()
     last = branch.shape(-1)
-    assert last.offset[0] == pytest.approx(branch.tip_radius[-1], rel=1e-12)
-    assert last.tension[-1] == pytest.approx(branch.top_tension[-1], rel=1e-12)
-    assert last.inclination[0] == pytest.approx(branch.lowest_inclination[-1], rel=1e-12)
+    ends = {"tip_radius": last.offset[0], "top_tension": last.tension[-1], "lowest_inclination": last.inclination[0]}
+    for name, value in ends.items():
+        assert getattr(branch, name)[-1] == pytest.approx(value, rel=1e-12), name
     # the moment of inertia, by the trapezium rule on the shape
     arc = np.linspace(0.0, 1.0, 4001)
     by_hand = 0.3 * last.offset[0] ** 2 + 2.0 * np.trapezoid(last.along(arc).offset ** 2, arc)
@@ -127,16 +128,74 @@ def test_swing():
     assert by_function.truncation_error.max() < 1e-4
 
 
+def counted(cord, height):
+    """As many shapes as critical heights, which is proved."""
+    shapes = rc.steady_shapes(cord, conical_height=height)
+    assert shapes.complete and [shape.half_waves for shape in shapes] == list(range(1, len(shapes) + 1))
+    assert len(shapes) == rc.count_modes(cord, conical_height=height)
+    return shapes
+
+
+def test_lists():
+    for ratio in (1.0, 1.45, 7.61, 7.62, 100.0, 500.0):
+        shapes = counted(rc.Cord(ratio), 1.0)
+    assert repr(shapes).startswith("14 shapes at 3.13156 rad/s (29.90 rpm), proved complete\n")
+    assert len(shapes) == 14 and len(shapes[1:3]) == 2
+    for options in ({"tip_weight": 0.3}, {"density": 2.0}, {"density": -0.5, "tip_weight": 0.2}):
+        assert len(counted(rc.Cord(1.0, weight=1.0, **options), 0.02)) > 1
+    by_speed = rc.steady_shapes(rc.Cord(2.0), angular_speed=10.0, gravity=9.81)
+    by_height = rc.steady_shapes(rc.Cord(2.0), conical_height=0.0981)
+    assert len(by_speed) == len(by_height) == 3
+    np.testing.assert_allclose(by_speed[2].offset, by_height[2].offset, atol=1e-12)
+
+
+def test_arrays_and_places_agree():
+    for options in ({}, {"tip_weight": 0.3}, {"density": lambda s: 1 + s}):
+        for shape in rc.steady_shapes(rc.Cord(1.0, **options), conical_height=0.01):
+            assert shape.arc_length[0] == 0 and shape.arc_length[-1] == 1 and np.all(np.diff(shape.arc_length) >= 0)
+            assert shape.offset[-1] == 0 and shape.height[-1] == 0 and shape.offset[0] > 0
+            place = shape.along(shape.arc_length)
+            for name in ("offset", "height", "inclination"):
+                slack = 4 * shape.error_bound
+                np.testing.assert_allclose(getattr(place, name), getattr(shape, name), atol=slack, rtol=0)
+            np.testing.assert_allclose(place.tension, shape.tension, rtol=1e-9)
+            assert np.tan(shape.inclination[0]) == pytest.approx(shape.offset[0] / 0.01, rel=1e-12)
+            assert not shape.offset.flags.writeable
+            assert shape.along(0.25).offset.shape == () and shape.along([[0.25]]).tension.shape == (1, 1)
+            assert shape.error_bound < 2e-13 and shape.residual < 1e-14
+
+
+def test_beads_have_more_shapes_than_critical_heights():
+    def beads(s):
+        return 0.01 + sum(math.exp(-(((s - at) / 0.05) ** 2)) / (0.05 * math.sqrt(math.pi)) for at in (0.15, 1.0, 2.0))
+
+    cord = rc.Cord(3.0, density=beads)
+    shapes = rc.steady_shapes(cord, conical_height=0.06)
+    assert np.sum(rc.modes(cord, 4).conical_height > 0.06) == 3
+    assert [shape.half_waves for shape in shapes] == [1, 2, 3, 3, 3]
+    assert not shapes.complete and "5 shapes at" in repr(shapes) and "there may be more" in repr(shapes)
+
+
 def test_pictures():
     pytest.importorskip("matplotlib")
     branch = rc.branch(TIP, 1, max_angular_speed=10.0)
     assert branch.plot().get_ylabel() == "inclination of the lowest link (degrees)"
     assert rc.branches(rc.Cord(1.0), max_angular_speed=10.0).plot().get_title() == "all branches: proved complete"
+    shapes = rc.steady_shapes(rc.Cord(1.0), conical_height=0.05)
+    ax = shapes.plot()
+    assert ax.get_xlabel() == "distance from axis (m)" and ax.get_title() == "3 shapes, proved complete"
+    assert shapes[0].plot(ax) is ax
+    none = rc.steady_shapes(rc.Cord(1.0), conical_height=1.0)
+    assert none.plot().get_title() == "0 shapes, proved complete"
     found = rc.swing(TIP, [0.0, 0.7], offset=lambda s: 0.1 * (1 - s))
     assert found.plot().get_ylabel() == "depth below the support (m)"
     assert found.plot(kind="time", pins=[0, 50]).get_xlabel() == "time (s)"
     with pytest.raises(ValueError, match="pins must be numbers from 0 to 100"):
         found.plot(kind="time", pins=[101])
+
+
+def shapes_of(**asked):
+    return rc.steady_shapes(rc.Cord(1.0), **{"conical_height": 0.1} | asked)
 
 
 @pytest.mark.parametrize(
@@ -156,6 +215,17 @@ def test_pictures():
         (lambda: rc.swing(TIP, 0.0, arc_length=[0.0, 2.0]), "arc_length must lie between 0 and the length 1"),
         (lambda: rc.swing(TIP, 0.0, count=0), "count must be"),
         (lambda: rc.swing(TIP.chain(2), 0.0, offset=[0.1, 0.0], arc_length=[0.0]), "arc_length is for a Cord"),
+        (lambda: shapes_of(conical_height=-1.0), "conical_height must be positive"),
+        (lambda: shapes_of(conical_height=1e-7), "at most 1e6"),
+        (lambda: shapes_of(conical_height=None), "exactly one of .*, got none$"),
+        (lambda: shapes_of(angular_speed=1.0), "exactly one of .*, got conical_height and angular_speed$"),
+        (lambda: shapes_of(conical_height=None, angular_speed=1e300), "height of angular_speed must be positive .*, got 0"),
+        (lambda: shapes_of(budget=0), "budget must be from 1 to 1000000 offsets of the free end of a cord, got 0"),
+        *((lambda x=x: rc.Cord(1.0, tip_weight=x), "tip_weight must be") for x in ("heavy", "1")),
+        (lambda: rc.Cord(1.0, density="thick"), r"density \(the exponent, or a function .*\) must be"),
+        (lambda: rc.Cord(1.0, density=lambda s: -s), "must be positive"),
+        (lambda: rc.Cord(1.0, density=lambda s: "heavy"), "density.* must be a number without a unit, got 'heavy'$"),
+        *((lambda x=x: shapes_of()[0].along(x), "between 0 and the length") for x in (-0.1, 1.1, math.nan, [0.5, 2.0])),
     ],
 )
 def test_wrong_calls(ask, message):
@@ -163,9 +233,12 @@ def test_wrong_calls(ask, message):
         ask()
 
 
-def test_an_error_of_the_start_comes_through():
+@pytest.mark.parametrize(
+    "ask", [lambda function: rc.swing(TIP, 0.0, offset=function), lambda function: rc.Cord(1.0, density=function)]
+)
+def test_an_error_of_a_function_comes_through(ask):
     def broken(s):
         raise KeyError("no such place")
 
     with pytest.raises(KeyError, match="no such place"):
-        rc.swing(TIP, 0.0, offset=broken)
+        ask(broken)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Modes of cords, uniform, with a tip mass, of varying density: against mpmath and laws."""
+"""Modes of cords, uniform, with a tip mass, of varying density; their laws are tested in tests/cpp/special."""
 
 import math
 import random
@@ -7,8 +7,6 @@ import random
 import mpmath as mp
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from scipy.special import j0, j1, y0, y1
 
 import revchain as rc
@@ -85,44 +83,6 @@ def test_numbers_of_the_paper():
     np.testing.assert_allclose(modes.vertical_points[3] / height, [3.670493, 12.304614, 25.874864], atol=5e-7)
 
 
-@settings(max_examples=40, deadline=None)
-@given(st.floats(-8, 8), st.integers(1, 25), st.floats(-3, 3))
-def test_tip_mass_laws(log_tip, mode, log_length):
-    length = 10.0**log_length
-    tip = 10.0**log_tip * length
-    modes = rc.modes(tipped(tip, length), mode + 1)
-    heights, nodes = modes.conical_height, modes.nodes[mode - 1]
-    assert (np.diff(heights) < 0).all()
-    # Weight at the end stretches the cord: slower than a cord of tip + length, faster than the string it becomes.
-    assert (heights <= rc.modes(rc.Cord(tip + length), mode + 1).conical_height * (1 + 1e-14)).all()
-    between = np.concatenate([[0], nodes]) / 2 + np.concatenate([nodes, [length]]) / 2
-    np.testing.assert_array_equal(np.sign(modes.along(between)[mode - 1]), (-1.0) ** np.arange(mode))
-    np.testing.assert_allclose(modes.slope(0.0) * heights, -1, rtol=1e-14)
-
-
-@settings(max_examples=40, deadline=None)
-@given(st.floats(-0.99, 60), st.integers(1, 25))
-def test_tapered_cord_laws(exponent, mode):
-    modes = rc.modes(rc.Cord(1.0, density=exponent), mode + 1)
-    following = rc.modes(rc.Cord(1.0, density=exponent + 1), mode + 1).conical_height
-    # Zeros of neighbouring orders interlace.
-    zeros, following = np.sqrt((exponent + 1) / modes.conical_height), np.sqrt((exponent + 2) / following)
-    assert (zeros < following).all() and (following[:-1] < zeros[1:]).all()
-    nodes = modes.nodes[mode - 1]
-    assert (np.diff(np.concatenate([[0], nodes, [1]])) > 0).all()
-    assert nodes.shape == (mode - 1,)
-
-
-@settings(max_examples=40, deadline=None)
-@given(st.integers(1, 1000), st.floats(1e-3, 1e3))
-def test_limits_agree(mode, length):
-    """A tip of next to no weight, and next to no taper."""
-    uniform = rc.modes(rc.Cord(length), mode).conical_height
-    np.testing.assert_allclose(rc.modes(tipped(1e-200, length), mode).conical_height, uniform, rtol=4 * ULP)
-    heights = rc.modes(rc.Cord(length, density=1e-30), mode).conical_height
-    np.testing.assert_allclose(heights, uniform, rtol=4 * ULP)
-
-
 @pytest.mark.parametrize(
     "given_",
     [{}, {"tip_weight": 1e-6}, {"tip_weight": 0.3}, {"tip_weight": 1e3}, {"density": -0.5}, {"density": 1.5},
@@ -145,38 +105,6 @@ def test_vertical_points_part_the_nodes(given_):
     difference = (modes.along(x + step) - modes.along(x - step)) / (2 * step)
     size = wave * np.abs(modes.along(np.linspace(0, length, 99))).max()
     np.testing.assert_allclose(modes.slope(x), difference, atol=size * (wave * step) ** 2)
-
-
-def test_slope_and_kinetic_energy():
-    """Of the weight per length 1: half the integral of offset^2 / height and of tension times slope^2."""
-    x = np.linspace(0, 0.7, 15)
-    for mode in (1, 2, 9):
-        modes = one(rc.Cord(0.7), mode)
-        (height,), slope = modes.conical_height, modes.slope(x)[0]
-        assert slope[0] == -1 / height
-        near = one(rc.Cord(0.7, density=1e-30), mode).slope(x)[0]
-        np.testing.assert_allclose(slope, near, atol=4e-15 * mode / height)
-        node, weight = np.polynomial.legendre.leggauss(60)
-        z = (node + 1) / 2 * 2 * math.sqrt(0.7 / height)
-        at = np.minimum(height * z**2 / 4, 0.7)
-        dx = weight * math.sqrt(0.7 / height) * height * z / 2
-        energy = 0.7 * 0.7 * (0.1 * modes.slope(0.7)[0]) ** 2 / 2
-        offset, steep = 0.1 * modes.along(at)[0], 0.1 * modes.slope(at)[0]
-        assert (offset**2 * dx).sum() / (2 * height) == pytest.approx(energy, rel=1e-13)
-        assert (at * steep**2 * dx).sum() / 2 == pytest.approx(energy, rel=1e-13)
-
-
-def test_kinetic_energy_of_a_cord_that_tapers():
-    """Weight 3 and density s^2: the weight below s is 3 s^3 / length^3, which is the tension."""
-    length, weight = 0.7, 3.0
-    modes = rc.modes(rc.Cord(length, weight=weight, density=2.0), 4)
-    node, part = np.polynomial.legendre.leggauss(60)
-    s, ds = length * (node + 1) / 2, part * length / 2
-    energy = weight * length * modes.slope(length) ** 2 / 2
-    kinetic = (modes.along(s) ** 2 * 3 * weight * s**2 / length**3 * ds).sum(axis=1) / (2 * modes.conical_height)
-    potential = (modes.slope(s) ** 2 * weight * (s / length) ** 3 * ds).sum(axis=1) / 2
-    np.testing.assert_allclose(kinetic, energy, rtol=1e-13)
-    np.testing.assert_allclose(potential, energy, rtol=1e-13)
 
 
 def test_places_of_one_number_and_of_many():
@@ -202,19 +130,18 @@ def test_places_of_one_number_and_of_many():
         (lambda: rc.modes(rc.Cord(1.0), 1, first=2**60).nodes, "too large, got 1152921504606846976: it would take"),
         (lambda: rc.modes(rc.Cord(1.0), 1, first=2**60).vertical_points, "too large, got 1152921504606846976"),
         (lambda: rc.modes(rc.Cord(1.0), 2, gravity=0.0), "revchain.modes: gravity must be positive and finite, got 0"),
-        (lambda: rc.Cord(1.0, tip_weight=-1), "revchain.Cord: tip_weight must be finite and not negative, got -1"),
-        (lambda: rc.Cord(1.0, tip_weight=NAN), "revchain.Cord: tip_weight must be finite and not negative, got nan"),
-        (lambda: rc.Cord(1.0, tip_weight=INF), "revchain.Cord: tip_weight must be finite and not negative, got inf"),
         (lambda: rc.modes(tipped(1e260)), "tip must lie between 0 and 1e250 lengths"),
-        (lambda: rc.Cord(0.0), "revchain.Cord: length must be positive and finite, got 0"),
-        (lambda: rc.Cord(NAN), "revchain.Cord: length must be positive and finite, got nan"),
-        (lambda: rc.Cord(INF), "revchain.Cord: length must be positive and finite, got inf"),
-        (lambda: rc.Cord(-1.0), "revchain.Cord: length must be positive and finite, got -1"),
         (lambda: rc.Cord([1.0, 2.0]), "revchain.Cord: length must be a single number"),
         (lambda: rc.Cord(1.0, tip_weight=[1.0]), "revchain.Cord: tip_weight must be a single number"),
-        (lambda: rc.Cord(1.0, density=-1.0), "exponent of the density must be above -1 and at most 1e4, got -1"),
-        (lambda: rc.Cord(1.0, density=INF), "exponent of the density must be above -1 and at most 1e4, got inf"),
-        (lambda: rc.Cord(1.0, density=NAN), "exponent of the density must be above -1 and at most 1e4, got nan"),
+        *(
+            (lambda given=given, x=x: rc.Cord(**{"length": 1.0, given: x}), f"revchain.Cord: {words}, got {x:g}")
+            for given, words in (
+                ("length", "length must be positive and finite"),
+                ("tip_weight", "tip_weight must be finite and not negative"),
+                ("density", "the exponent of the density must be above -1 and at most 1e4"),
+            )
+            for x in (-1.0, NAN, INF, *[0.0] * (given == "length"))
+        ),
         *(
             (lambda x=x, name=name: getattr(rc.modes(rc.Cord(1.0), 1), name)(x), f"revchain.Modes.{name}: {words}")
             for name in ("along", "slope")

@@ -23,31 +23,31 @@ def public():
     for module in (rc, *(each for each in MODULES if hasattr(each, "__all__"))):
         for name in [*dir(rc), *rc._RECEIVED] if module is rc else module.__all__:
             thing = getattr(module, name)
-            if inspect.isfunction(thing):
+            if inspect.isfunction(thing) or inspect.isclass(thing):
                 yield f"{module.__name__}.{name}", thing
-            elif inspect.isclass(thing):
-                yield f"{module.__name__}.{name}", thing
-                for method, member in vars(thing).items():
-                    member = getattr(member, "__func__", member)
-                    if not method.startswith("_") and inspect.isfunction(member):
-                        yield f"{module.__name__}.{name}.{method}", member
+            for method, member in vars(thing).items() if inspect.isclass(thing) else ():
+                member = getattr(member, "__func__", member)
+                if not method.startswith("_") and inspect.isfunction(member):
+                    yield f"{module.__name__}.{name}.{method}", member
 
 
 PUBLIC = dict(public())
 
 
-def test_something_is_public():
+def test_there_is_enough():
+    finder = doctest.DocTestFinder()
     assert len(PUBLIC) > 150 and len(ATTRIBUTES) > 300
+    assert sum(len(each.examples) for module in MODULES for each in finder.find(module)) > 80
 
 
 @pytest.mark.parametrize("name", PUBLIC)
 def test_described(name):
     thing = PUBLIC[name]
     text = inspect.getdoc(thing)
-    assert text is not None
-    assert text.splitlines()[0].endswith(".")
-    sections = {line for line, under in zip(text.splitlines(), text.splitlines()[1:], strict=False) if under.startswith("---")}
+    lines = text.splitlines()
+    assert lines[0].endswith(".")
     if inspect.isfunction(thing):
+        sections = {line for line, under in zip(lines, lines[1:], strict=False) if under.startswith("---")}
         assert ">>> " in text and "Examples" in sections
         parameters = [each for each in inspect.signature(thing).parameters if each not in ("self", "cls")]
         assert ("Parameters" in sections) == bool(parameters)
@@ -78,8 +78,3 @@ def test_examples_run(module, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     result = doctest.testmod(module)
     assert result.failed == 0
-
-
-def test_there_are_examples():
-    finder = doctest.DocTestFinder()
-    assert sum(len(each.examples) for module in MODULES for each in finder.find(module)) > 80

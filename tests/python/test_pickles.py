@@ -15,15 +15,11 @@ PROTOCOLS = range(pickle.HIGHEST_PROTOCOL + 1)
 
 def compiled():
     """One object of each compiled class that results hold."""
+    wheel = rc.Rig(CHAIN, flywheels=rc.Flywheel(momentum=1.0))
     shapes = _core.steady_shapes(CHAIN._compiled, 0.3, None, 9.8, 1, True, 1, True, 10_000, 1)
-    yield CHAIN._compiled
-    yield shapes
-    yield shapes.shapes[0]
+    yield from (CHAIN._compiled, shapes, shapes.shapes[0], _core.Progress(), wheel._under(9.8))
     yield _core.stability(CHAIN._compiled, shapes.shapes[0], False, 1, 9.8)
-    yield _core.Progress()
-    yield rc.Rig(CHAIN, flywheels=rc.Flywheel(momentum=1.0))._under(9.8)
-    yield rc.modes(CHAIN)._found()
-    yield rc.modes(rc.Rig(CHAIN, flywheels=rc.Flywheel(momentum=1.0)))._found()
+    yield from (rc.modes(system)._found() for system in (CHAIN, wheel))
 
 
 @pytest.mark.parametrize("protocol", PROTOCOLS)

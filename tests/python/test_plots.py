@@ -14,24 +14,17 @@ from revchain.plots.style import SPEED_UNITS
 RODS = rc.modes(rc.Chain.uniform_rods(120, length=0.36), count=8)
 
 
-def texts(axes):
-    return [label.get_text() for label in axes.get_xticklabels()]
-
-
 def clipped(axes):
     """The texts that leave the picture."""
     figure = axes.figure
     FigureCanvasAgg(figure).draw()
-    ticks = [
-        label
-        for axis, (low, high) in ((axes.xaxis, sorted(axes.get_xlim())), (axes.yaxis, sorted(axes.get_ylim())))
-        for tick, label in zip(axis.get_ticklocs(), axis.get_ticklabels(), strict=True)
-        if low <= tick <= high  # others are not drawn
-    ]
-    labels = [label for label in (axes.title, axes.xaxis.label, axes.yaxis.label, *ticks) if label.get_text()]
-    frame = figure.bbox
-    boxes = [(label.get_text(), label.get_window_extent()) for label in labels]
+    labels = [axes.title, axes.xaxis.label, axes.yaxis.label]
+    for axis, ends in ((axes.xaxis, axes.get_xlim()), (axes.yaxis, axes.get_ylim())):  # other ticks are not drawn
+        ticks = zip(axis.get_ticklocs(), axis.get_ticklabels(), strict=True)
+        labels += [label for tick, label in ticks if min(ends) <= tick <= max(ends)]
+    boxes = [(label.get_text(), label.get_window_extent()) for label in labels if label.get_text()]
     assert len(boxes) > 4
+    frame = figure.bbox
     inside = lambda box: frame.x0 <= box.x0 and box.x1 <= frame.x1 and frame.y0 <= box.y0 and box.y1 <= frame.y1  # noqa: E731
     return [text for text, box in boxes if not inside(box)]
 
@@ -47,22 +40,24 @@ def overlapping(axes):
 def test_modes(modes, gravity):
     result = RODS.with_gravity(gravity)
     axes = result.plot(modes=modes)
-    assert isinstance(axes, Axes)
+    assert isinstance(axes, Axes) and axes.get_ylabel() == "depth below the support (m)"
     chosen = list(range(1, 7)) if modes is None else list(modes)
-    assert [text.splitlines()[0] for text in texts(axes)] == ["at rest", *(f"mode {mode}" for mode in chosen)]
+    labels = [label.get_text() for label in axes.get_xticklabels()]
+    assert [text.splitlines()[0] for text in labels] == ["at rest", *(f"mode {mode}" for mode in chosen)]
     speeds = result.angular_speed
-    assert all(f"{speeds[mode - 1]:#.4g} rad/s" in text for mode, text in zip(chosen, texts(axes)[1:], strict=True))
-    assert axes.get_ylabel() == "depth below the support (m)"
+    assert all(f"{speeds[mode - 1]:#.4g} rad/s" in text for mode, text in zip(chosen, labels[1:], strict=True))
     assert axes.yaxis_inverted() or axes.get_ylim()[0] > axes.get_ylim()[1]
-    assert clipped(axes) == []
-    assert not overlapping(axes)
+    assert clipped(axes) == [] and not overlapping(axes)
+
+
+def curve_of(axes, mode):
+    return next(line for line in axes.lines if line.get_label() == f"mode {mode}")
 
 
 def test_curves_and_nodes_are_where_they_belong():
     axes = RODS.plot(modes=[3])
-    curve = next(line for line in axes.lines if line.get_label() == "mode 3")
-    np.testing.assert_allclose(curve.get_xdata() - SPACING, RODS.shape[2], atol=1e-15)
-    np.testing.assert_allclose(curve.get_ydata(), np.linspace(0.36, 0.0, 121), atol=1e-15)
+    np.testing.assert_allclose(curve_of(axes, 3).get_xdata() - SPACING, RODS.shape[2], atol=1e-15)
+    np.testing.assert_allclose(curve_of(axes, 3).get_ydata(), np.linspace(0.36, 0.0, 121), atol=1e-15)
     rings = next(line for line in axes.lines if len(line.get_xdata()) == 2 and line.get_marker() == "o")
     np.testing.assert_allclose(rings.get_ydata(), 0.36 - RODS.nodes[2])
 
@@ -70,10 +65,8 @@ def test_curves_and_nodes_are_where_they_belong():
 def test_a_long_chain_is_thinned_and_keeps_its_extremes():
     result = rc.modes(rc.Chain.uniform_rods(10_000), count=40)
     for mode in (1, 40):
-        axes = result.plot(modes=[mode])
-        curve = next(line for line in axes.lines if line.get_label() == f"mode {mode}").get_xdata()
+        curve, offset = curve_of(result.plot(modes=[mode]), mode).get_xdata(), SPACING + result.shape[mode - 1]
         assert len(curve) <= 2100
-        offset = SPACING + result.shape[mode - 1]
         assert curve.max() == offset.max() and curve.min() == offset.min()
         signs = np.sign(curve[:-1] - SPACING)
         assert (signs[1:] != signs[:-1]).sum() == mode - 1
@@ -82,19 +75,17 @@ def test_a_long_chain_is_thinned_and_keeps_its_extremes():
 @pytest.mark.parametrize("tip", [0.01, 0.5, 20.0])
 def test_every_mode_is_as_wide_as_its_column(tip):
     """Shapes are 1 at the free end; below a heavy tip a cord is hundreds of times as far out in between."""
-    system = rc.Cord(2.0, mass=0.5, tip_mass=tip)
-    for modes in (rc.modes(system, 4), rc.modes(system.chain(40), 4)):
-        axes = modes.plot()
+    cord = rc.Cord(2.0, mass=0.5, tip_mass=tip)
+    for system in (cord, cord.chain(40)):
+        axes = rc.modes(system, 4).plot()
         for number in range(1, 5):
-            curve = next(line for line in axes.lines if line.get_label() == f"mode {number}").get_xdata()
-            assert np.abs(curve - number * SPACING).max() == pytest.approx(1)
+            assert np.abs(curve_of(axes, number).get_xdata() - number * SPACING).max() == pytest.approx(1)
 
 
 def test_pins_are_dots_where_they_are_few():
     few = rc.modes(rc.Chain.uniform_plummets(5)).plot(modes=[1])
-    assert next(line for line in few.lines if line.get_label() == "mode 1").get_marker() == "o"
-    many = RODS.plot(modes=[1])
-    assert next(line for line in many.lines if line.get_label() == "mode 1").get_marker() in ("", "None")
+    assert curve_of(few, 1).get_marker() == "o"
+    assert curve_of(RODS.plot(modes=[1]), 1).get_marker() in ("", "None")
 
 
 def test_the_axes_given_are_used():
@@ -130,6 +121,8 @@ def test_modes_refused(modes):
 
 def test_nothing_global_is_touched(python):
     program = """
+
+
 import matplotlib, sys, revchain as rc
 before = matplotlib.rcParams.copy()
 axes = rc.modes(rc.Chain.uniform_rods(3)).plot()
@@ -163,14 +156,14 @@ def test_ropes_and_governor(thing):
 
 def test_governor_that_never_returns_asks_for_a_duration():
     swing = rc.GovernorMotion(angular_speed=0.0, pendulum_length=1.0, angle=0.0, angle_rate=2 * 9.80665**0.5)
-    assert swing.regime == "asymptotic"
-    with pytest.raises(ValueError, match="give duration"):
-        swing.plot()
-    assert len(swing.plot(duration=3.0).lines) == 3
-    with pytest.raises(ValueError, match="duration must be positive"):
-        SWING.plot(duration=-1.0)
-    with pytest.raises(ValueError, match="half_waves must be positive"):
-        TORTUOUS.plot(half_waves=0.0)
+    assert swing.regime == "asymptotic" and len(swing.plot(duration=3.0).lines) == 3
+    for draw, words in (
+        (swing.plot, "give duration"),
+        (lambda: SWING.plot(duration=-1.0), "duration must be positive"),
+        (lambda: TORTUOUS.plot(half_waves=0.0), "half_waves must be positive"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            draw()
 
 
 UNITS = {

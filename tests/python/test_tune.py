@@ -20,34 +20,36 @@ def rig(chain=POINT, **given):
     return rc.Rig(chain, **given)
 
 
-SPRING = {"support": rc.Support(stiffness=90.0, mass=0.7)}
-WHEEL = {"flywheels": rc.Flywheel(mass=0.4, radius_of_gyration=0.3, spin=50.0)}
-DRIVEN = {"flywheels": rc.Flywheel(mass=0.4, radius_of_gyration=0.3, spin=50.0, driven=True)}
-
-
 def carriage(n, m=2, a=1.5, e=90):
     """Of a point mass below a carriage: (e + k - M n^2) (k - m n^2) = k^2, k = m g / a."""
     k = m * mp.mpf(G) / a
     return (e + k - k**2 / (k - m * n**2)) / n**2
 
 
-CLOSED = {  # system, path, mode, speed, the value in closed form, that it is formed without a search
-    "length on a spring": (rig(support=rc.Support(stiffness=90.0)), "length", 1, 2.0, lambda n: G / n**2 - 2 * mp.mpf(G) / 90),
-    "mass on a spring": (rig(support=rc.Support(stiffness=90.0)), "mass", 1, 2.0, lambda n: (G / n**2 - mp.mpf(1.5)) * 90 / G),
-    "the only link's mass": (rig(support=rc.Support(stiffness=90.0)), "links[0].mass", 1, 2.0, lambda n: (G / n**2 - mp.mpf(1.5)) * 90 / G),
-    "carriage": (rig(**SPRING), "support.mass", 1, 2.3, carriage),
-    "carriage, faster mode": (rig(**SPRING), "support.mass", 2, 11.0, carriage),
-    "wheel's mass": (rig(**WHEEL), "flywheels[0].mass", 1, 3.2, lambda n: (mp.mpf(4.5) * n**2 - 3 * mp.mpf(G)) / (n * mp.mpf(0.3) ** 2 * 50)),
-    "wheel's radius": (rig(**WHEEL), "flywheels[0].radius_of_gyration", 1, -2.4,
-                       lambda n: mp.sqrt((mp.mpf(4.5) * n**2 - 3 * mp.mpf(G)) / (n * mp.mpf(0.4) * 50))),
-    "spin": (rig(**WHEEL), "flywheels[0].spin", 1, -2.4, lambda n: (mp.mpf(4.5) * n**2 - 3 * mp.mpf(G)) / (n * mp.mpf(0.4) * mp.mpf(0.3) ** 2)),
-    "spin of a driven wheel": (rig(**DRIVEN), "flywheels[0].spin", 1, 3.2,
-                               lambda n: (mp.mpf(4.5) * n**2 - 3 * mp.mpf(G)) / (n * mp.mpf(0.4) * mp.mpf(0.3) ** 2) - n),
-    "mass of a driven wheel": (rig(**DRIVEN), "flywheels[0].mass", 1, 3.2,
-                               lambda n: (mp.mpf(4.5) * n**2 - 3 * mp.mpf(G)) / (n * mp.mpf(0.3) ** 2 * (50 + n))),
-    "float": (rig(displaced=rc.Displaced(mass=0.5)), "displaced[0].mass", 1, 2.0, lambda n: 2 * (1 - n**2 * mp.mpf(1.5) / G)),
-    "added mass": (rig(displaced=rc.Displaced(mass=0.0, added_mass=0.5)), "displaced[0].added_mass", 1, 2.0,
-                   lambda n: 2 * mp.mpf(G) / (mp.mpf(1.5) * n**2) - 2),
+def momentum(n):
+    """Of a gyrostat of 2 kg on a link of 1.5 m."""
+    return (mp.mpf(4.5) * n**2 - 3 * mp.mpf(G)) / n
+
+
+MASS, RADIUS, SPIN = mp.mpf(0.4), mp.mpf(0.3), 50
+FIRM, SOFT, CARRIED = rig(), rig(support=rc.Support(stiffness=90.0)), rig(support=rc.Support(stiffness=90.0, mass=0.7))
+SPUN, LED = (
+    rig(flywheels=rc.Flywheel(mass=0.4, radius_of_gyration=0.3, spin=50.0, driven=driven)) for driven in (False, True)
+)
+FLOATING, MOVED = (rig(displaced=rc.Displaced(**given)) for given in ({"mass": 0.5}, {"mass": 0.0, "added_mass": 0.5}))
+CLOSED = {  # system, path, mode, speed, the value in closed form
+    "length on a spring": (SOFT, "length", 1, 2.0, lambda n: G / n**2 - 2 * mp.mpf(G) / 90),
+    "mass on a spring": (SOFT, "mass", 1, 2.0, lambda n: (G / n**2 - mp.mpf(1.5)) * 90 / G),
+    "the only link's mass": (SOFT, "links[0].mass", 1, 2.0, lambda n: (G / n**2 - mp.mpf(1.5)) * 90 / G),
+    "carriage": (CARRIED, "support.mass", 1, 2.3, carriage),
+    "carriage, faster mode": (CARRIED, "support.mass", 2, 11.0, carriage),
+    "wheel's mass": (SPUN, "flywheels[0].mass", 1, 3.2, lambda n: momentum(n) / (RADIUS**2 * SPIN)),
+    "wheel's radius": (SPUN, "flywheels[0].radius_of_gyration", 1, -2.4, lambda n: mp.sqrt(momentum(n) / (MASS * SPIN))),
+    "spin": (SPUN, "flywheels[0].spin", 1, -2.4, lambda n: momentum(n) / (MASS * RADIUS**2)),
+    "spin of a driven wheel": (LED, "flywheels[0].spin", 1, 3.2, lambda n: momentum(n) / (MASS * RADIUS**2) - n),
+    "mass of a driven wheel": (LED, "flywheels[0].mass", 1, 3.2, lambda n: momentum(n) / (RADIUS**2 * (SPIN + n))),
+    "float": (FLOATING, "displaced[0].mass", 1, 2.0, lambda n: 2 * (1 - n**2 * mp.mpf(1.5) / G)),
+    "added mass": (MOVED, "displaced[0].added_mass", 1, 2.0, lambda n: 2 * mp.mpf(G) / (mp.mpf(1.5) * n**2) - 2),
     "tension": (rc.Held(PAIR, tension=60.0), "tension", 1, 7.0, lambda n: (3 * n**2 + 3 * mp.mpf(G)) / 2),
     "length under a tension": (rc.Held(PAIR, tension=60.0), "length", 1, 7.0, lambda n: 2 * (120 - 3 * mp.mpf(G)) / (3 * n**2)),
     "length of a cord": (rc.Cord(2.0, mass=1.0), "length", 1, 3.0, lambda n: G / n**2 * (mp.besseljzero(0, 1) / 2) ** 2),
@@ -108,22 +110,21 @@ PATHS = [
 def test_what_was_changed_in_a_rig_is_found_again(path, seed):
     """Of random rigs of both directions, some with links that stand; its speed is that of the datum put back."""
     rng = np.random.default_rng(seed)
-    chain = random_chain(rng, 3, spread=0.7)
-    chain = rc.Chain(mass=chain.weight, length=chain.length, centroid=chain.centroid, radius_of_gyration=chain.radius_of_gyration)
+    bodies = random_chain(rng, 3, spread=0.7)
+    mass, inner = bodies.weight, {"centroid": bodies.centroid, "radius_of_gyration": bodies.radius_of_gyration}
     whole = rc.Rig(
-        chain,
+        rc.Chain(mass=mass, length=bodies.length, **inner),
         support=rc.Support(stiffness=60.0, mass=0.5),
         flywheels=rc.Flywheel(mass=0.3, radius_of_gyration=0.2, spin=rng.normal(size=3) * 40, driven=[True, False, False]),
-        displaced=rc.Displaced(mass=0.05 * chain.mass, added_mass=0.1 * chain.mass, centroid=0.5 * chain.length, radius_of_gyration=0.1),
+        displaced=rc.Displaced(mass=0.05 * mass, added_mass=0.1 * mass, centroid=0.5 * bodies.length, radius_of_gyration=0.1),
         inverted=[bool(seed % 2), False, False],
     )
     start = rc.modes(whole)
     row = int(rng.integers(len(start)))
     speed, mode = float(start.angular_speed[row]), int(start.number[row])
-    moved = rc.tune(whole, vary=path, mode=mode, angular_speed=speed * 1.01)
-    if moved.status != "found":
-        moved = rc.tune(whole, vary=path, mode=mode, angular_speed=speed * 0.99)
-    if moved.status != "found":
+    moves = (rc.tune(whole, vary=path, mode=mode, angular_speed=speed * share) for share in (1.01, 0.99))
+    moved = next((found for found in moves if found.status == "found"), None)
+    if moved is None:
         pytest.skip("this datum moves this mode by less than a hundredth")
     back = rc.tune(moved.system, vary=path, mode=mode, angular_speed=speed)
     assert back.status == "found" and back.present == moved.value
@@ -145,27 +146,27 @@ def test_a_value_past_a_jump_of_the_numbers_is_none():
 
 
 def test_where_to_look_and_what_was_seen():
-    on_spring = rig(**SPRING)
-    narrow = rc.tune(on_spring, vary="support.mass", angular_speed=2.3, between=("1 kg", "20 kg"))
+    narrow = rc.tune(CARRIED, vary="support.mass", angular_speed=2.3, between=("1 kg", "20 kg"))
     assert narrow.between == (1.0, 20.0) and not narrow.complete
-    none = rc.tune(on_spring, vary="support.mass", angular_speed=3.0)
+    none = rc.tune(CARRIED, vary="support.mass", angular_speed=3.0)
     assert none.status == "undecided" and none.system is None and none.reachable[0] > G / 9
-    assert none.reachable[0] == pytest.approx(G / rc.modes(rig(support=rc.Support(stiffness=90.0, mass=0.7e-3)), 1).angular_speed[0] ** 2)
+    light = rc.modes(rig(support=rc.Support(stiffness=90.0, mass=0.7e-3)), 1)
+    assert none.reachable[0] == pytest.approx(G / light.angular_speed[0] ** 2)
     same = rc.tune(rc.Cord(1.0, mass=1.0), vary="mass", angular_speed=3.0)  # nothing beside it
     assert same.status == "undecided" and same.reachable[0] == pytest.approx(same.reachable[1], rel=1e-15)
-    firm = rc.tune(rig(), vary="support.stiffness", angular_speed=2.0)
+    firm = rc.tune(FIRM, vary="support.stiffness", angular_speed=2.0)
     assert firm.present == math.inf and firm.value == pytest.approx(2 * G / (G / 4 - 1.5), rel=1e-15)
 
 
 @pytest.mark.parametrize(
     ("system", "given", "message"),
     [
-        (rig(), {"vary": "support.radius"}, "support.radius has no effect on the speeds of small oscillations"),
-        (rig(), {"vary": "links[0].weight"}, 'given by mass: vary "links\\[0\\].mass"'),
+        (FIRM, {"vary": "support.radius"}, "support.radius has no effect on the speeds of small oscillations"),
+        (FIRM, {"vary": "links[0].weight"}, 'given by mass: vary "links\\[0\\].mass"'),
         (PAIR, {"vary": "mass"}, 'ratios alone; vary "links\\[k\\].mass"'),
-        (rig(), {"vary": "flywheels[0].spin"}, 'vary must be one of .*"flywheels\\[k\\].momentum" of a Rig, got'),
-        (rig(), {"vary": "links[4].mass"}, "the highest is links\\[0\\]"),
-        (rig(**SPRING), {"vary": "support.mass", "mode": 3}, "mode must be from 1 to 2, the number of modes in a direction, got 3"),
+        (FIRM, {"vary": "flywheels[0].spin"}, 'vary must be one of .*"flywheels\\[k\\].momentum" of a Rig, got'),
+        (FIRM, {"vary": "links[4].mass"}, "the highest is links\\[0\\]"),
+        (CARRIED, {"vary": "support.mass", "mode": 3}, "mode must be from 1 to 2, the number of modes in a direction, got 3"),
         (rc.Held(PAIR, tension=60.0), {"vary": "tension", "mode": 3}, "mode must be from 1 to 1, the number of modes, got 3"),
         (rc.Held(PAIR, tension=60.0), {"vary": "span"}, 'vary must be one of .*"tension" of a Held'),
         (rc.Held(PAIR, span=1.0), {"vary": "tension"}, "is bent.*give top_tension"),
@@ -173,10 +174,10 @@ def test_where_to_look_and_what_was_seen():
         (rc.Held(PAIR, span=1.0), {"vary": "span", "top_tension": -1.0}, "top_tension must be positive"),
         (PAIR, {"vary": "length", "top_tension": 40.0}, "top_tension is for a system held at a span; leave it out, got 40"),
         (rc.Cord(1.0), {"vary": "density"}, '"tip_mass" of a Cord'),
-        (rig(**SPRING), {"vary": "support.mass", "between": 3}, "between must be a pair"),
-        (rig(**SPRING), {"vary": "support.mass", "between": ("1 m", 2)}, "mass \\(each end of between\\) must be a mass"),
-        (rig(**SPRING), {"vary": "support.mass", "between": (3.0, 2.0)}, "high end must exceed the low one, got 3 and 2"),
-        (rig(), {"vary": "support.stiffness", "between": (1.0, 2.0)}, "between is for a search, and support.stiffness has one value"),
+        (CARRIED, {"vary": "support.mass", "between": 3}, "between must be a pair"),
+        (CARRIED, {"vary": "support.mass", "between": ("1 m", 2)}, "mass \\(each end of between\\) must be a mass"),
+        (CARRIED, {"vary": "support.mass", "between": (3.0, 2.0)}, "high end must exceed the low one, got 3 and 2"),
+        (FIRM, {"vary": "support.stiffness", "between": (1.0, 2.0)}, "between is for a search, and support.stiffness has one value"),
         (rig(flywheels=rc.Flywheel(mass=0.0, radius_of_gyration=1.0, spin=0.0)), {"vary": "flywheels[0].spin"}, "has no moment of inertia"),
     ],
 )  # fmt: skip
