@@ -20,14 +20,11 @@ from typing import Any
 import numpy as np
 
 import revchain as rc
+from revchain.motion.film import form_of
 
 ROOT = Path(__file__).resolve().parent.parent
 WEB = ROOT / "web"
 STORIES = json.loads((WEB / "stories.json").read_text(encoding="utf-8"))  # a sentence and two things to try for each
-# What a link is drawn as if its name has this word.
-FORMS = {
-    "bell": "bell", "jar": "jar", "man": "person", "chair": "seat", "load": "crate", "hook": "hook", "gyrostat": "disc",
-}  # fmt: skip
 LOWEST = {"swing_carousel": "seat"}  # forms of free ends that have no name
 SCRIPTS = ("state.js", "client.js", "draw.js", "controls.js", "page.js")
 # Scenes that the page shows, in its order. It has no fluids, no held ends and no 10,000 links.
@@ -53,11 +50,6 @@ PRESETS = [
     "two_gyrostats",
     "weight_ratio",
 ]
-
-
-def form_of(name: str) -> str:
-    """The form of a link by its name; empty for a bar with a ball."""
-    return next((form for word, form in FORMS.items() if word in name.split()), "")
 
 
 def preset(name: str) -> dict[str, Any]:
