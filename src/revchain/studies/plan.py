@@ -19,6 +19,7 @@ from .axes import Axis, with_value
 from .batch import Links
 
 SUCCESS, NOT_MET, REFUSED = 1, 2, 3  # the status of a point; 0 if it has not been computed
+Values = list[NDArray[Any]]  # the numbers of each axis, one for each point
 Rows = dict[str, NDArray[Any]]  # arrays by name, with a row for each point
 STATUS = ("success", "tolerance_not_met", "refused")
 _SPEED = ("angular_speed", "conical_height", "error_bound", "speed_error_bound")
@@ -47,9 +48,10 @@ class Block:
         return [f"{self.name}_{label}" for label in self.labels] if self.along else [self.name]
 
     @property
-    def unit(self) -> str:
-        """The SI unit; empty for a number without one."""
-        return _UNITS.get(self.name.rpartition("_")[2], "")
+    def attributes(self) -> dict[str, str]:
+        """The SI unit under the key `units`; empty for a number without one."""
+        word = self.name.rpartition("_")[2]
+        return {"units": _UNITS[word]} if word in _UNITS else {}
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,25 +71,25 @@ class Plan:
         """Number of points."""
         return math.prod(self.shape)
 
-    def zeros(self, points: int) -> Rows:
-        """Arrays for the random numbers, the results and the status of this number of points."""
-        random = {axis.name: np.zeros(points) for axis in self.axes if axis.values is None}
-        results = {block.name: np.zeros((points, *block.each), block.kind) for block in self.blocks}
-        return {**random, **results, "status": np.zeros(points, np.int8)}
+    @property
+    def is_random(self) -> bool:
+        """Whether random numbers are varied."""
+        return any(axis.values is None for axis in self.axes)
 
-    def values(self, start: int, stop: int) -> list[NDArray[Any]]:
-        """The numbers of each axis at the points start <= k < stop."""
-        found, after = [], self.points
-        for axis in self.axes:
-            if axis.values is None:
-                found.append(axis.drawn(self.seed, start, stop))
-                continue
-            size = axis.values.size
-            after //= size  # points with the same number, one after the other
-            first, last = start // after, -(-stop // after)
-            runs = np.tile(axis.values, -(-(last - first) // size) + 1)[first % size :][: last - first]
-            found.append(np.repeat(runs, after)[start - first * after :][: stop - start])
-        return found
+    def rows(self, points: int | None = None) -> Rows:
+        """Arrays for the results and the status of this number of points; all points if left out."""
+        points = self.points if points is None else points
+        results = {block.name: np.zeros((points, *block.each), block.kind) for block in self.blocks}
+        return {**results, "status": np.zeros(points, np.int8)}
+
+    def values(self) -> Values:
+        """The numbers of each axis at all points."""
+        grids = [axis.values for axis in self.axes if axis.values is not None]
+        samples, meshes = self.points // math.prod(map(len, grids)), iter(np.meshgrid(*grids, indexing="ij"))
+        return [
+            axis.drawn(self.seed, self.points) if axis.values is None else np.repeat(next(meshes), samples)
+            for axis in self.axes
+        ]
 
     def scene(self, values: Sequence[Any]) -> dict[str, Any]:
         """The data of the scene with these numbers."""
@@ -96,48 +98,24 @@ class Plan:
             data = with_value(data, axis.path, value)
         return data
 
-    def solved(self, start: int, stop: int, rows: Rows | None = None) -> Rows:
-        """The points start <= k < stop, put into `rows` if given; they do not depend on the other points."""
-        rows = self.zeros(stop - start) if rows is None else rows
-        values = self.values(start, stop)
+    def solve(self, values: Values, rows: Rows) -> None:
+        """Put the results at points with these numbers into `rows`; they do not depend on the other points."""
         if self.links is not None:
             self.links.solve(values, self.blocks[0].labels[0], rows)
-        for k in np.flatnonzero(rows["status"] == 0).tolist():
-            self._solve(rows, k, [column[k].item() for column in values])
-        self.derive(rows, values)
-        return rows
-
-    def derive(self, rows: Rows, values: list[NDArray[Any]]) -> None:
-        """Put the random numbers, and in batches the speeds, into `rows`; they follow from the stored results."""
-        gravity: Any = None if self.links is None else self.links.gravity
-        for axis, column in zip(self.axes, values, strict=True):
-            if axis.values is None:
-                rows[axis.name][:] = column
-            if self.links is not None and axis.path == ("gravity",):
-                gravity = column[:, np.newaxis]
-        if gravity is not None:
-            with np.errstate(invalid="ignore"):  # gravity of refused points
-                np.divide(np.sqrt(gravity), np.sqrt(rows["conical_height"]), out=rows["angular_speed"])
-
-    @property
-    def stored(self) -> list[str]:
-        """Names of the arrays that `derive` does not fill."""
-        derived = () if self.links is None else ("angular_speed",)
-        return [*(block.name for block in self.blocks if block.name not in derived), "status"]
-
-    def _solve(self, rows: Rows, k: int, values: list[Any]) -> None:
-        """Put the answers of the scene of one point into row k."""
-        found: dict[str, Any] = {}
-        try:
-            found, proved = answers(convert(self.scene(values), Scene), self.find)  # the questions check the scene
+        left = np.flatnonzero(rows["status"] == 0)
+        for block in self.blocks if left.size else ():
+            rows[block.name][left] = math.nan if block.kind == "f8" else 0
+        for k, *numbers in zip(left.tolist(), *(column[left].tolist() for column in values), strict=True):
+            try:
+                found, proved = answers(convert(self.scene(numbers), Scene), self.find)  # the questions check the scene
+            except (ValueError, OverflowError):
+                rows["status"][k] = REFUSED
+                continue
             rows["status"][k] = SUCCESS if proved else NOT_MET
-        except (ValueError, OverflowError):
-            rows["status"][k] = REFUSED
-        for block in self.blocks:
-            row = rows[block.name][k : k + 1].reshape(-1)
-            row[:] = math.nan if block.kind == "f8" else 0
-            numbers = np.ravel(found.get(block.name, []))[: row.size]
-            row[: numbers.size] = numbers
+            for block in self.blocks:
+                row = rows[block.name][k : k + 1].reshape(-1)
+                there = np.ravel(found[block.name])[: row.size]
+                row[: there.size] = there
 
 
 def answers(scene: Scene, find: Sequence[str]) -> tuple[dict[str, Any], bool]:

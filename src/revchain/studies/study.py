@@ -18,7 +18,6 @@ from ..scenes.scene import Scene, json_schema, load_scene
 from ..scenes.tables import Table, says
 from ..systems.numbers import file_path, integer, text
 from .axes import LAWS, MAX_POINTS, Axis, Samples, Vary, axis_of, with_value
-from .axes import Path as Steps
 from .batch import links_of
 from .plan import Plan, answers, asked_of, blocks_of
 
@@ -194,7 +193,7 @@ class Study(Table, frozen=True):
         point = integer(place, "point", point)
         if not 0 <= point < plan.points:
             raise IndexError(f"{place}: there are {plan.points} points from 0 on, got {point}")
-        return Scene.from_dict(plan.scene([column.tolist()[0] for column in plan.values(point, point + 1)]))
+        return Scene.from_dict(plan.scene([column[point].item() for column in plan.values()]))
 
     def _refusal(self, point: int) -> str:
         """The reason why a point has no numbers."""
@@ -298,7 +297,7 @@ def _refuse_twice(axes: tuple[Axis, ...], numbers: Numbers) -> None:
         for other in axes[:k]:
             if axis.name == other.name:
                 place.refuse("name", f"{axis.name} is the name of another, too")
-            shorter: Steps = min(axis.path, other.path, key=len)
+            shorter = min(axis.path, other.path, key=len)
             if axis.path[: len(shorter)] == other.path[: len(shorter)]:
                 place.refuse("", f"is varied by {joined('vary', other.key)}, too")
 
