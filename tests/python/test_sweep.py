@@ -247,10 +247,11 @@ def test_points_one_by_one_are_those_of_their_scenes(scene, vary):
             continue
         assert rows(found, "status")[point] == (1 if proved else 2)
         for block in plan.blocks:
-            row, values = np.atleast_1d(rows(found, block.name)[point]), np.ravel(np.asarray(want[block.name], block.kind))
+            value = block.output.of(want[block.output.question])
+            row, values = np.atleast_1d(rows(found, block.name)[point]), np.ravel(np.asarray(value, block.output.kind))
             there = min(row.size, values.size)
             assert row[:there].tobytes() == values[:there].tobytes(), block.name
-            assert (np.isnan(row[there:]) if block.kind == "f8" else row[there:] == 0).all(), block.name
+            assert (np.isnan(row[there:]) if block.output.kind == "f8" else row[there:] == 0).all(), block.name
 
 
 def test_rigs_shapes_and_response_are_those_of_the_scene():

@@ -89,9 +89,9 @@ class Axis:
         """The random numbers of the first `count` points; each depends only on seed, path and the number of its point."""
         key = zlib.crc32(self.key.encode()), 0
         stream = np.random.Generator(np.random.SFC64(np.random.SeedSequence(seed, spawn_key=key)))
-        if self.law == "log_uniform":
-            return np.exp(stream.uniform(*map(math.log, self.law_numbers), count))
-        return (stream.normal if self.law == "normal" else stream.uniform)(*self.law_numbers, count)
+        one, two = map(math.log, self.law_numbers) if self.law == "log_uniform" else self.law_numbers
+        numbers = stream.normal(one, two, count) if self.law == "normal" else stream.uniform(one, two, count)
+        return np.exp(numbers, out=numbers) if self.law == "log_uniform" else numbers
 
 
 def with_value(data: Any, path: Path, value: Any) -> Any:
@@ -171,15 +171,15 @@ def _grid(table: Vary, quantity: str, numbers: Numbers) -> Floats | None:
     for key, value in (("from", table.first), ("to", table.last), ("steps", table.steps)):
         if value is UNSET:
             numbers.refuse(key, "is missing")
-    ends = [numbers.value(key, end, quantity, "any") for key, end in (("from", table.first), ("to", table.last))]
-    if isinstance(table.steps, UnsetType) or math.isnan(sum(ends)):
+    low, high = (numbers.value(key, end, quantity, "any") for key, end in (("from", table.first), ("to", table.last)))
+    if isinstance(table.steps, UnsetType) or math.isnan(low + high):
         return None
     if table.steps > MAX_STEPS:
         numbers.refuse("steps", f"must be at most {MAX_STEPS:,}, got {table.steps:,}")
-    elif table.log and min(ends) <= 0:
+    elif table.log and min(low, high) <= 0:
         numbers.refuse("log", "needs from and to that are positive")
     else:
-        return (np.geomspace if table.log else np.linspace)(*ends, table.steps)
+        return (np.geomspace if table.log else np.linspace)(low, high, table.steps)
     return None
 
 

@@ -4,9 +4,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from functools import partial
+from operator import attrgetter
+from typing import Any, NamedTuple
 
 import numpy as np
 from msgspec import UNSET, UnsetType, convert
@@ -19,39 +21,73 @@ from .axes import Axis, with_value
 from .batch import Links
 
 SUCCESS, NOT_MET, REFUSED = 1, 2, 3  # the status of a point; 0 if it has not been computed
+STATUS = ("success", "tolerance_not_met", "refused")
 Values = list[NDArray[Any]]  # the numbers of each axis, one for each point
 Rows = dict[str, NDArray[Any]]  # arrays by name, with a row for each point
-STATUS = ("success", "tolerance_not_met", "refused")
-_SPEED = ("angular_speed", "conical_height", "error_bound", "speed_error_bound")
-_SHAPE = ("lowest_inclination", "top_inclination", "free_end_offset", "top_tension")
-_RESPONSE = ("response_angular_speed", "response_free_end_offset", "response_largest_offset", "support_force")
-_UNITS = {"speed": "rad/s", "height": "m", "inclination": "rad", "offset": "m", "tension": "N", "force": "N"}
+
+
+class Output(NamedTuple):
+    """A result that a study can store, and how it is found."""
+
+    question: str  # "modes", "shapes" or "response"
+    of: Callable[[Any], Any]  # one number, or a list of them, from the answer to the question
+    unit: str = ""
+    kind: str = "f8"  # "f8", "i8" or "?"; NaN, 0 or False stands for a missing result
+    along: str = ""  # "mode", "shape", "speed", or empty for one number
+
+
+def _turning(name: str, sign: int, modes: Any) -> Any:
+    """The sizes of speeds, heights or bounds of the modes that turn in one direction."""
+    return np.abs(getattr(modes, name)[modes.direction == sign])
+
+
+def _of_each(name: str, link: int, shapes: Any) -> list[Any]:
+    return [getattr(shape, name)[link] for shape in shapes]
+
+
+_OF_MODES = {"angular_speed": "rad/s", "conical_height": "m", "error_bound": "", "speed_error_bound": ""}
+_ANSWERS = {"modes": Scene.modes, "shapes": Scene.steady_shapes, "response": Scene.response}
+OUTPUTS = {
+    **{name: Output("modes", attrgetter(name), unit, along="mode") for name, unit in _OF_MODES.items()},
+    **{
+        f"{turn}_{name}": Output("modes", partial(_turning, name, sign), unit, along="mode")
+        for turn, sign in (("forward", 1), ("backward", -1))
+        for name, unit in _OF_MODES.items()
+    },
+    "other_modes": Output("modes", attrgetter("other_available"), kind="i8"),
+    "modes_complete": Output("modes", attrgetter("complete"), kind="?"),
+    "shapes": Output("shapes", len, kind="i8"),
+    "shapes_complete": Output("shapes", attrgetter("complete"), kind="?"),
+    "half_waves": Output("shapes", lambda shapes: [shape.half_waves for shape in shapes], kind="i8", along="shape"),
+    "lowest_inclination": Output("shapes", partial(_of_each, "inclination", 0), "rad", along="shape"),
+    "top_inclination": Output("shapes", partial(_of_each, "inclination", -1), "rad", along="shape"),
+    "free_end_offset": Output("shapes", partial(_of_each, "offset", 0), "m", along="shape"),
+    "top_tension": Output("shapes", partial(_of_each, "tension", -1), "N", along="shape"),
+    "shape_error_bound": Output("shapes", lambda shapes: [shape.error_bound for shape in shapes], along="shape"),
+    "response_angular_speed": Output("response", attrgetter("angular_speed"), "rad/s", along="speed"),
+    "response_free_end_offset": Output("response", lambda moved: moved.offset[..., 0], "m", along="speed"),
+    "response_largest_offset": Output("response", lambda moved: np.abs(moved.offset).max(axis=-1), "m", along="speed"),
+    "support_force": Output("response", attrgetter("support_force"), "N", along="speed"),
+    "response_error_bound": Output("response", attrgetter("error_bound"), along="speed"),
+}
 
 
 @dataclass(frozen=True)
 class Block:
-    """A result of each point: one number, or one for each mode, shape or speed."""
+    """A result of each point of a study: one number, or one for each mode, shape or speed."""
 
-    name: str
-    kind: str  # "f8", "i8" or "?"; NaN, 0 or False stands for a missing result
-    along: str = ""  # "mode", "shape", "speed", or empty for one number
-    labels: tuple[int, ...] = ()  # numbers of the modes, shapes or speeds
+    name: str  # a key of `OUTPUTS`
+    labels: tuple[int, ...]  # numbers of the modes, shapes or speeds; empty for one number
 
     @property
-    def each(self) -> tuple[int, ...]:
-        """The shape of the results of one point."""
-        return (len(self.labels),) if self.along else ()
+    def output(self) -> Output:
+        """What the result is."""
+        return OUTPUTS[self.name]
 
     @property
     def columns(self) -> list[str]:
         """Names of its columns in a table."""
-        return [f"{self.name}_{label}" for label in self.labels] if self.along else [self.name]
-
-    @property
-    def attributes(self) -> dict[str, str]:
-        """The SI unit under the key `units`; empty for a number without one."""
-        word = self.name.rpartition("_")[2]
-        return {"units": _UNITS[word]} if word in _UNITS else {}
+        return [f"{self.name}_{label}" for label in self.labels] or [self.name]
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,16 +107,13 @@ class Plan:
         """Number of points."""
         return math.prod(self.shape)
 
-    @property
-    def is_random(self) -> bool:
-        """Whether random numbers are varied."""
-        return any(axis.values is None for axis in self.axes)
-
-    def rows(self, points: int | None = None) -> Rows:
-        """Arrays for the results and the status of this number of points; all points if left out."""
-        points = self.points if points is None else points
-        results = {block.name: np.zeros((points, *block.each), block.kind) for block in self.blocks}
-        return {**results, "status": np.zeros(points, np.int8)}
+    def rows(self, points: int) -> Rows:
+        """Arrays for the results and the status of this number of points."""
+        found = {
+            block.name: np.zeros((points, len(block.labels)) if block.labels else points, block.output.kind)
+            for block in self.blocks
+        }
+        return {**found, "status": np.zeros(points, np.int8)}
 
     def values(self) -> Values:
         """The numbers of each axis at all points."""
@@ -104,7 +137,7 @@ class Plan:
             self.links.solve(values, self.blocks[0].labels[0], rows)
         left = np.flatnonzero(rows["status"] == 0)
         for block in self.blocks if left.size else ():
-            rows[block.name][left] = math.nan if block.kind == "f8" else 0
+            rows[block.name][left] = math.nan if block.output.kind == "f8" else 0
         for k, *numbers in zip(left.tolist(), *(column[left].tolist() for column in values), strict=True):
             try:
                 found, proved = answers(convert(self.scene(numbers), Scene), self.find)  # the questions check the scene
@@ -113,39 +146,23 @@ class Plan:
                 continue
             rows["status"][k] = SUCCESS if proved else NOT_MET
             for block in self.blocks:
-                row = rows[block.name][k : k + 1].reshape(-1)
-                there = np.ravel(found[block.name])[: row.size]
-                row[: there.size] = there
+                result = block.output.of(found[block.output.question])
+                if block.labels:
+                    there = min(len(result), len(block.labels))
+                    rows[block.name][k, :there] = result[:there]
+                else:
+                    rows[block.name][k : k + 1] = result
 
 
 def answers(scene: Scene, find: Sequence[str]) -> tuple[dict[str, Any], bool]:
-    """The results of one scene, by the names of the blocks, and whether all are complete and within their tolerance."""
-    found: dict[str, Any] = {}
-    proved = True
-    if "modes" in find:
-        modes: Any = scene.modes()
-        if scene.is_rigged:
-            for turn, which in (("forward", modes.direction > 0), ("backward", modes.direction < 0)):
-                found |= {f"{turn}_{name}": np.abs(getattr(modes, name)[which]) for name in _SPEED}
-            found |= {"other_modes": modes.other_available, "modes_complete": modes.complete}
-        else:
-            found |= {name: getattr(modes, name) for name in _SPEED[:3]}
-        proved = modes.status == "success"
-    if "shapes" in find:
-        shapes: Any = scene.steady_shapes()
-        found |= {"shapes": len(shapes), "shapes_complete": shapes.complete}
-        found["half_waves"] = [s.half_waves for s in shapes]
-        for name, field in zip(_SHAPE, ("inclination", "inclination", "offset", "tension"), strict=True):
-            found[name] = [getattr(s, field)[-1 if name.startswith("top") else 0] for s in shapes]
-        found["shape_error_bound"] = [s.error_bound for s in shapes]
-        proved = proved and bool(shapes.complete)
-    if "response" in find:
-        moved = scene.response()
-        offset = np.atleast_2d(moved.offset)
-        numbers = [moved.angular_speed, offset[:, 0], np.abs(offset).max(axis=1), moved.support_force]
-        found |= dict(zip(_RESPONSE, numbers, strict=True)) | {"response_error_bound": moved.error_bound}
-        proved = proved and bool(np.isfinite(moved.error_bound).all())
-    return found, proved
+    """The answers to these questions of a scene, and whether all are complete and within their tolerance."""
+    found = {question: _ANSWERS[question](scene) for question in find}
+    proved = [
+        "modes" not in found or found["modes"].status == "success",
+        "shapes" not in found or found["shapes"].complete,
+        "response" not in found or np.isfinite(found["response"].error_bound).all(),
+    ]
+    return found, all(proved)
 
 
 def asked_of(scene: Scene, wanted: Sequence[str] | UnsetType, numbers: Numbers) -> tuple[str, ...]:
@@ -171,26 +188,18 @@ def asked_of(scene: Scene, wanted: Sequence[str] | UnsetType, numbers: Numbers) 
 
 def blocks_of(scene: Scene, largest: Scene, find: tuple[str, ...], max_shapes: int, bounds: bool) -> tuple[Block, ...]:
     """The results of each point; `largest` is the scene of the point with the most modes."""
-    blocks: list[Block] = []
-    system = scene.system()
+    names = [name for name in OUTPUTS if OUTPUTS[name].question in find and (bounds or not name.endswith("error_bound"))]
+    of_rigs = [name for name in OUTPUTS if name.startswith(("forward", "backward")) or name in ("other_modes", "modes_complete")]
+    unlike = set(_OF_MODES) if scene.is_rigged else {*of_rigs, "speed_error_bound"}
+    if not scene.system().has_momentum:
+        unlike |= {name for name in of_rigs if name.startswith("backward")}
+    labels: dict[str, tuple[int, ...]] = {"": (), "shape": tuple(range(1, max_shapes + 1))}
     if "modes" in find:
-        labels = _modes_of(scene, largest)
-        names = list(_SPEED[: (4 if scene.is_rigged else 3) if bounds else 2])
-        turns = ["forward_", "backward_"] if system.has_momentum else ["forward_"]
-        for turn in turns if scene.is_rigged else [""]:
-            blocks += [Block(turn + name, "f8", "mode", labels) for name in names]
-        if scene.is_rigged:
-            blocks += [Block("other_modes", "i8"), Block("modes_complete", "?")]
-    if "shapes" in find:
-        labels = tuple(range(1, max_shapes + 1))
-        blocks += [Block("shapes", "i8"), Block("shapes_complete", "?"), Block("half_waves", "i8", "shape", labels)]
-        blocks += [Block(name, "f8", "shape", labels) for name in (*_SHAPE, *["shape_error_bound"] * bounds)]
+        labels["mode"] = _modes_of(scene, largest)
     if "response" in find:
         count = _speeds_of(scene.ask.response)
-        names = [*_RESPONSE, *["response_error_bound"] * bounds]
-        labels = tuple(range(1, count + 1))
-        blocks += [Block(name, "f8", "" if count == 1 else "speed", labels) for name in names]
-    return tuple(blocks)
+        labels["speed"] = tuple(range(1, count + 1)) if count > 1 else ()
+    return tuple(Block(name, labels[OUTPUTS[name].along]) for name in names if name not in unlike)
 
 
 def _modes_of(scene: Scene, largest: Scene) -> tuple[int, ...]:

@@ -123,7 +123,7 @@ def sweep(
     if chunk is None:
         few = max(min(ONE_BY_ONE, plan.points // (4 * workers)), plan.points // MOST_CHUNKS, 1)
         chunk = few if plan.links is None else BATCH
-    values, rows, folder = plan.values(), plan.rows(), None
+    values, rows, folder = plan.values(), plan.rows(plan.points), None
     with ExitStack() as stack:
         if out is not None:
             output = Path(os.path.realpath(out))
@@ -281,7 +281,7 @@ def dataset(study: Study, plan: Plan, values: Values, rows: Rows) -> Dataset:
     """The results as an xarray data set."""
     coordinates: dict[str, Any] = {}
     data: dict[str, Any] = {}
-    points = [axis.name for axis in plan.axes if axis.values is not None] + ["sample"] * plan.is_random
+    points = [axis.name for axis in plan.axes if axis.values is not None] + ["sample"] * any(axis.values is None for axis in plan.axes)
     for axis, column in zip(plan.axes, values, strict=True):
         about = {"units": axis.unit, "path": axis.key} if axis.unit else {"path": axis.key}
         if axis.values is None:
@@ -289,10 +289,10 @@ def dataset(study: Study, plan: Plan, values: Values, rows: Rows) -> Dataset:
         else:
             coordinates[axis.name] = axis.name, axis.values, about
     for block in plan.blocks:
-        dimensions = [*points, block.along] if block.along else points
-        data[block.name] = dimensions, rows[block.name].reshape(*plan.shape, *block.each), block.attributes
-        if block.along:
-            coordinates[block.along] = block.along, np.array(block.labels)
+        along, unit = [block.output.along] * bool(block.labels), block.output.unit
+        array = rows[block.name].reshape(*plan.shape, *[len(block.labels)] * len(along))
+        data[block.name] = [*points, *along], array, {"units": unit} if unit else {}
+        coordinates |= {name: (name, np.array(block.labels)) for name in along}
     flags = {"flag_values": np.arange(1, 4, dtype=np.int8), "flag_meanings": " ".join(STATUS)}
     data["status"] = points, rows["status"].reshape(plan.shape), flags
     about = {"title": study.title, "study": json.dumps(study.to_dict())}

@@ -81,9 +81,8 @@ def steps(path: object) -> Path:
 def read(place: str, system: Any, path: Any, gravity: float) -> Datum:
     """The datum of a path; for an unknown path a ValueError that lists the known ones."""
     name, link = path, None
-    match steps(path):
-        case str(table), int(link), str(last):
-            name = f"{table}[k].{last}"
+    if len(parts := steps(path)) == 3 and isinstance(parts[1], int):
+        name, link = f"{parts[0]}[k].{parts[2]}", parts[1]
     heavy, other = ("mass", "weight") if system.by_mass else ("weight", "mass")
     known = _paths(system, heavy)
     if not isinstance(name, str) or name not in known:
