@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
@@ -14,7 +14,7 @@ from ..scenes import parse
 from ..scenes.chain import Numbers
 from ..scenes.error import Problem, SceneError
 from ..scenes.places import joined
-from ..scenes.scene import Scene, json_schema, load_scene
+from ..scenes.scene import Scene, json_schema, load_scene, named
 from ..scenes.tables import Table, says
 from ..systems.numbers import file_path, integer, text
 from .axes import LAWS, MAX_POINTS, Axis, Samples, Vary, axis_of, with_value
@@ -123,16 +123,11 @@ class Study(Table, frozen=True):
     def _read(cls, data: Any, source: str, folder: Path, problems: list[Problem]) -> Self:
         """The study; one error for all problems, with those of its syntax."""
         scene = data.get("scene") if isinstance(data, dict) else None
-        try:
-            if isinstance(scene, str):
+        if isinstance(scene, str):
+            try:
                 data = {**data, "scene": load_scene(folder / scene).to_dict()}
-            elif isinstance(scene, dict):
-                data = {**data, "scene": Scene.from_dict(scene, source).to_dict()}
-        except ValueError as error:  # a SceneError, or that the name has a null byte
-            data = {**data, "scene": ""}  # so that the rest is read
-            if isinstance(error, SceneError) and not isinstance(scene, str):
-                problems += _within_scene(error.problems)
-            else:
+            except ValueError as error:  # a SceneError, or that the name has a null byte
+                data = {**data, "scene": ""}  # so that the rest is read
                 problems += [Problem(0, 0, "scene", sentence) for sentence in str(error).split("\n")]
         study = parse.convert(data, cls, source, problems)
         study._plan(source, problems)
@@ -205,8 +200,8 @@ class Study(Table, frozen=True):
 
     def _plan(self, source: str, known: Sequence[Problem] = ()) -> Plan:
         """The checked plan of the study; one error for all problems, with those already known."""
-        numbers = Numbers(source)
-        numbers.problems += known
+        numbers, inside = Numbers(source), [one for one in known if one.key.startswith("scene.")]
+        numbers.problems += [one for one in known if one not in inside]
         scene, base, find = self.scene, dict[str, Any](), tuple[str, ...]()
         vary = self.vary if isinstance(self.vary, dict) else {}
         each = [axis_of(key, table, Scene, numbers.of(joined("vary", key))) for key, table in vary.items()]
@@ -217,8 +212,9 @@ class Study(Table, frozen=True):
             needs = "is missing: say how many points" if random else "is for random numbers, and none are varied"
             numbers.refuse("samples", needs)
         if isinstance(scene, Scene):
-            base, wrong = scene.to_dict(), scene._problems(source, [])
-            numbers.problems += _within_scene(wrong)
+            inside = [one._replace(key=one.key.removeprefix("scene.")) for one in inside]
+            base, wrong = scene.to_dict(), [named(one, scene) for one in scene._problems(source, inside)]
+            numbers.problems += [one._replace(key=f"scene.{one.key}".rstrip(".")) for one in wrong]
             if not wrong:
                 find = asked_of(scene, self.find, numbers)
                 for axis in axes:
@@ -283,11 +279,6 @@ def load_study(path: str | os.PathLike[str]) -> Study:
 def study_schema() -> dict[str, Any]:
     """The JSON Schema of study files, for editors."""
     return json_schema(Study, "revchain study")
-
-
-def _within_scene(problems: Iterable[Problem]) -> list[Problem]:
-    """The problems of a scene with the keys that they have in a study."""
-    return [one._replace(key=f"scene.{one.key}".rstrip(".")) for one in problems]
 
 
 def _refuse_twice(axes: tuple[Axis, ...], numbers: Numbers) -> None:
