@@ -34,6 +34,7 @@ class Output(NamedTuple):
     unit: str = ""
     kind: str = "f8"  # "f8", "i8" or "?"; NaN, 0 or False stands for a missing result
     along: str = ""  # "mode", "shape", "speed", or empty for one number
+    only: str = ""  # "rig", "spinning" (a rig with momentum) or "other" (not a rig); empty for all systems
 
 
 def _turning(name: str, sign: int, modes: Any) -> Any:
@@ -46,16 +47,17 @@ def _of_each(name: str, link: int, shapes: Any) -> list[Any]:
 
 
 _OF_MODES = {"angular_speed": "rad/s", "conical_height": "m", "error_bound": "", "speed_error_bound": ""}
+_TURNS = (("forward", 1, "rig"), ("backward", -1, "spinning"))
 _ANSWERS = {"modes": Scene.modes, "shapes": Scene.steady_shapes, "response": Scene.response}
 OUTPUTS = {
-    **{name: Output("modes", attrgetter(name), unit, along="mode") for name, unit in _OF_MODES.items()},
+    **{name: Output("modes", attrgetter(name), _OF_MODES[name], "f8", "mode", "other") for name in list(_OF_MODES)[:3]},
     **{
-        f"{turn}_{name}": Output("modes", partial(_turning, name, sign), unit, along="mode")
-        for turn, sign in (("forward", 1), ("backward", -1))
+        f"{turn}_{name}": Output("modes", partial(_turning, name, sign), unit, "f8", "mode", only)
+        for turn, sign, only in _TURNS
         for name, unit in _OF_MODES.items()
     },
-    "other_modes": Output("modes", attrgetter("other_available"), kind="i8"),
-    "modes_complete": Output("modes", attrgetter("complete"), kind="?"),
+    "other_modes": Output("modes", attrgetter("other_available"), kind="i8", only="rig"),
+    "modes_complete": Output("modes", attrgetter("complete"), kind="?", only="rig"),
     "shapes": Output("shapes", len, kind="i8"),
     "shapes_complete": Output("shapes", attrgetter("complete"), kind="?"),
     "half_waves": Output("shapes", lambda shapes: [shape.half_waves for shape in shapes], kind="i8", along="shape"),
@@ -188,18 +190,18 @@ def asked_of(scene: Scene, wanted: Sequence[str] | UnsetType, numbers: Numbers) 
 
 def blocks_of(scene: Scene, largest: Scene, find: tuple[str, ...], max_shapes: int, bounds: bool) -> tuple[Block, ...]:
     """The results of each point; `largest` is the scene of the point with the most modes."""
-    names = [name for name in OUTPUTS if OUTPUTS[name].question in find and (bounds or not name.endswith("error_bound"))]
-    of_rigs = [name for name in OUTPUTS if name.startswith(("forward", "backward")) or name in ("other_modes", "modes_complete")]
-    unlike = set(_OF_MODES) if scene.is_rigged else {*of_rigs, "speed_error_bound"}
-    if not scene.system().has_momentum:
-        unlike |= {name for name in of_rigs if name.startswith("backward")}
+    kinds = ("", "rig", *["spinning"] * scene.system().has_momentum) if scene.is_rigged else ("", "other")
     labels: dict[str, tuple[int, ...]] = {"": (), "shape": tuple(range(1, max_shapes + 1))}
     if "modes" in find:
         labels["mode"] = _modes_of(scene, largest)
     if "response" in find:
         count = _speeds_of(scene.ask.response)
         labels["speed"] = tuple(range(1, count + 1)) if count > 1 else ()
-    return tuple(Block(name, labels[OUTPUTS[name].along]) for name in names if name not in unlike)
+    return tuple(
+        Block(name, labels[output.along])
+        for name, output in OUTPUTS.items()
+        if output.question in find and output.only in kinds and (bounds or not name.endswith("error_bound"))
+    )
 
 
 def _modes_of(scene: Scene, largest: Scene) -> tuple[int, ...]:
