@@ -3,6 +3,7 @@
 
 import numpy as np
 import pytest
+from studies import GYROSTAT, UNIFORM, normal, uniform, words
 
 import revchain as rc
 
@@ -14,26 +15,7 @@ BODY = {"weight": 2.0, "length": 0.4, "centroid": 0.2, "pendulum_length": 0.3}
 WHEEL = {"mass": 0.5, "radius_of_gyration": 0.2, "spin": 40.0}
 LINKS = {"links": [ROD, BODY, {"mass": 1, "length": 0.3, "repeat": 3}]}
 TAPERED = {"tapered_chain": {"count": 12, "exponent": 1.0, "length": 1.0, "mass": 1.0, "tip_weight": 0.1}}
-UNIFORM = {"uniform_chain": {"kind": "rods", "count": 3, "length": 1.0, "weight": 1.0, "tip_mass": 0.3}}
 LONG = {"uniform_chain": {"kind": "rods", "count": 150, "length": 3.0, "mass": 1.0}, "ask": {"modes": {"count": 3, "rtol": "1 %"}}}
-GYROSTAT = {
-    "links": [{"mass": 2.0, "length": 0.4, "flywheel": {"mass": 1.5, "radius_of_gyration": 0.29, "spin": 40.0}}] * 2,
-    "support": {"stiffness": 200.0, "mass": 0.1, "radius": 0.02},
-    "ask": {"modes": {"count": 3}, "shapes": {"angular_speed": 9.0}, "response": {"angular_speed": {"from": 2.0, "to": 9.0, "steps": 4}}},
-}
-
-
-def uniform(low, high):
-    return {"uniform": [low, high]}
-
-
-def normal(mean, deviation):
-    return {"normal": [mean, deviation]}
-
-
-def words(*values):
-    return {"values": list(values)}
-
 
 # Scenes that batches do not serve, and what varies: numbers of every kind, some of which the scene refuses.
 SINGLE = {

@@ -20,6 +20,7 @@ from pathlib import Path
 import filelock
 import numpy as np
 import pytest
+from studies import GYROSTAT, UNIFORM, normal, uniform, words
 
 import revchain as rc
 from revchain.cli import app as _cli
@@ -39,11 +40,6 @@ BODIES = {
         {"mass": 0.5, "length": 0.4, "centroid": 0.3, "pendulum_length": 0.35},
     ],
     "ask": {"modes": {"count": "all"}},
-}
-GYROSTAT = {
-    "links": [{"mass": 2.0, "length": 0.4, "flywheel": {"mass": 1.5, "radius_of_gyration": 0.29, "spin": 40.0}}] * 2,
-    "support": {"stiffness": 200.0, "mass": 0.1, "radius": 0.02},
-    "ask": {"modes": {"count": 3}, "shapes": {"angular_speed": 9.0}, "response": {"angular_speed": {"from": 2.0, "to": 9.0, "steps": 4}}},
 }
 
 
@@ -167,21 +163,6 @@ def test_links_that_follow_the_varied_numbers(scene, paths, follows):
     assert found["mode"][0] == scene["ask"]["modes"].get("first", 1)
 
 
-UNIFORM = {"uniform_chain": {"kind": "rods", "count": 3, "length": 1.0, "weight": 1.0, "tip_mass": 0.3}}
-
-
-def uniform(low, high):
-    return {"uniform": [low, high]}
-
-
-def normal(mean, deviation):
-    return {"normal": [mean, deviation]}
-
-
-def words(*values):
-    return {"values": list(values)}
-
-
 def test_only_the_questions_of_find_are_asked(monkeypatch):
     scene = {"links": [{"mass": 1, "length": 1}], "ask": {"response": {"angular_speed": 1.0}, "shapes": {"angular_speed": 9.0}}}
     for name in ("response", "steady_shapes"):
@@ -226,9 +207,9 @@ def test_order_of_the_points():
 
 def test_random_numbers_belong_to_their_points():
     vary = {
-        "links[0].mass": {"uniform": [1, 2]},
+        "links[0].mass": uniform(1, 2),
         "links[0].length": {"log_uniform": [0.01, 100]},
-        "links[1].mass": {"normal": [5, 0.1]},
+        "links[1].mass": normal(5, 0.1),
     }
     many = rc.sweep(study(PLUMMETS, vary, samples=40_000, seed=3))
     few = rc.sweep(study(PLUMMETS, vary, samples=100, seed=3))
@@ -238,16 +219,13 @@ def test_random_numbers_belong_to_their_points():
         assert np.unique(many[name]).size == 40_000
     assert alone["links[1].mass"].equals(few["links[1].mass"])
     assert not np.any(rc.sweep(study(PLUMMETS, vary, samples=100, seed=4))["links[0].mass"] == few["links[0].mass"])
-    uniform, logs, normal = (
-        rows(many, "links[0].mass") - 1,
-        np.log10(rows(many, "links[0].length")),
-        (rows(many, "links[1].mass") - 5) / 0.1,
-    )
-    shares = [uniform, (logs + 2) / 4, [0.5 * math.erfc(-x / math.sqrt(2)) for x in normal]]
+    mass, logs = rows(many, "links[0].mass") - 1, np.log10(rows(many, "links[0].length"))
+    gauss = (rows(many, "links[1].mass") - 5) / 0.1
+    shares = [mass, (logs + 2) / 4, [0.5 * math.erfc(-x / math.sqrt(2)) for x in gauss]]
     for share in shares:  # Kolmogorov-Smirnov, 1 in 1e5
         gap = np.abs(np.sort(share) - (np.arange(40_000) + 0.5) / 40_000).max()
         assert gap < 2.5 / math.sqrt(40_000)
-    assert np.abs(np.corrcoef([uniform, logs, normal]) - np.eye(3)).max() < 0.025
+    assert np.abs(np.corrcoef([mass, logs, gauss]) - np.eye(3)).max() < 0.025
 
 
 def test_percentages_are_of_the_first_number():
@@ -471,19 +449,6 @@ def test_nothing_is_written_through_a_link(ended):
     assert Path("mine.txt").read_text() == "mine" and files() == ["a.csv", "mine.txt"]
 
 
-def test_a_folder_of_something_else_is_left_alone():
-    given = study(PLUMMETS, {"gravity": words(1.0)})
-    Path("a.csv.partial").mkdir()
-    Path("a.csv.partial/mine.txt").write_text("mine")
-    with pytest.warns(UserWarning, match="a.csv.partial stays: it holds other files, such as mine.txt"):
-        rc.sweep(given, out="a.csv")
-    assert Path("a.csv.partial/mine.txt").read_text() == "mine" and os.listdir("a.csv.partial") == ["mine.txt"]
-    Path("b.csv.partial").write_text("mine")
-    with pytest.raises(OSError, match="b.csv.partial is no folder"):
-        rc.sweep(given, out="b.csv")
-    assert Path("b.csv.partial").read_text() == "mine"
-
-
 def test_other_files_in_the_folder_stay(ended, run):
     given, folder = ended
     (folder / "mine.txt").write_text("mine")
@@ -495,6 +460,11 @@ def test_other_files_in_the_folder_stay(ended, run):
     code, _, err = run("sweep", "study.json", "--out", "b.csv", "--quiet")
     assert (code, err) == (0, f"revchain: {Path('b.csv.partial').resolve()} stays: it holds other files, such as mine.txt\n")
     assert sorted(path.name for path in Path("b.csv.partial").iterdir()) == ["mine.txt"]
+    assert (Path("b.csv.partial") / "mine.txt").read_text() == "mine"
+    Path("c.csv.partial").write_text("mine")
+    with pytest.raises(OSError, match="c.csv.partial is no folder"):
+        rc.sweep(given, out="c.csv")
+    assert Path("c.csv.partial").read_text() == "mine"
 
 
 def test_another_study_and_another_run_are_refused(ended):
