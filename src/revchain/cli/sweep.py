@@ -18,7 +18,7 @@ import typer
 from ..plots.sweep import plot_sweep, why_not_drawn
 from ..results.files import written_aside
 from ..studies.study import Study, load_study
-from ..studies.sweep import checked_ending, columns
+from ..studies.sweep import check_ending, columns
 from ..studies.sweep import sweep as compute
 from .exit_codes import ExitCode
 from .frame import Stop, app, checked_picture, epilog, guarded, save_picture
@@ -63,7 +63,7 @@ def sweep(
     if out.resolve() == study.resolve():
         raise Stop(f"{study}: the study itself would be overwritten", ExitCode.WRONG_USAGE)
     try:
-        checked_ending(out)
+        check_ending(out)
     except ValueError as error:
         raise Stop(str(error), ExitCode.WRONG_USAGE) from None
     began = time.perf_counter()

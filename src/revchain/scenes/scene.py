@@ -127,7 +127,7 @@ class Scene(Tables, frozen=True, weakref=True):
             raise SceneError(source, "vary", f"is of a study, not of a scene: revchain sweep {source}")
         scene = parse.convert(data, cls, source, problems)
         if found := scene._problems(source, problems):
-            raise SceneError(source, problems=[named(each, scene) for each in found])
+            raise SceneError(source, problems=[_named(each, scene) for each in found])
         return scene
 
     def to_dict(self) -> dict[str, Any]:
@@ -298,7 +298,7 @@ class Scene(Tables, frozen=True, weakref=True):
         return parse.without_consequences([*known, *numbers.problems])
 
 
-def named(problem: Problem, scene: Scene) -> Problem:
+def _named(problem: Problem, scene: Scene) -> Problem:
     """The problem with the name of its link added to the key."""
     found = re.match(r"links\[(\d+)\]\S*$", problem.key)
     if found is None or isinstance(scene.links, UnsetType) or int(found[1]) >= len(scene.links):

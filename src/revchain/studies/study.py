@@ -14,7 +14,7 @@ from ..scenes import parse
 from ..scenes.chain import Numbers
 from ..scenes.error import Problem, SceneError
 from ..scenes.places import joined
-from ..scenes.scene import Scene, json_schema, load_scene, named
+from ..scenes.scene import Scene, _named, json_schema, load_scene
 from ..scenes.tables import Table, says
 from ..systems.numbers import file_path, integer, text
 from .axes import LAWS, MAX_POINTS, Axis, Samples, Vary, axis_of, with_value
@@ -213,7 +213,7 @@ class Study(Table, frozen=True):
             numbers.refuse("samples", needs)
         if isinstance(scene, Scene):
             inside = [one._replace(key=one.key.removeprefix("scene.")) for one in inside]
-            base, wrong = scene.to_dict(), [named(one, scene) for one in scene._problems(source, inside)]
+            base, wrong = scene.to_dict(), [_named(one, scene) for one in scene._problems(source, inside)]
             numbers.problems += [one._replace(key=f"scene.{one.key}".rstrip(".")) for one in wrong]
             if not wrong:
                 find = asked_of(scene, self.find, numbers)

@@ -7,9 +7,9 @@ import errno
 import json
 import os
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import Executor, Future, ThreadPoolExecutor, as_completed
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import ExitStack, closing, contextmanager, suppress
 from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -60,7 +60,8 @@ def sweep(
     workers : int, optional
         Number of threads, or of workers of the executor; one for each processor if left out.
     chunk : int, optional
-        Number of points that are computed and stored together; about half a second of work if left out.
+        Number of points that are computed and stored together. If left out, 65,536 points of a batch, or up to 100 points
+        that are solved one by one, 1/10,000 of all points if that is more.
     progress : callable, optional
         Function that is called repeatedly with the number of finished points and the number of all points.
 
@@ -118,7 +119,7 @@ def sweep(
     workers = _processors() if workers is None else checked_count(_PLACE, "workers", workers)
     require("xarray", "sweep", _PLACE)
     if out is not None:
-        checked_ending(out)
+        check_ending(out)
     plan = study._plan("study")
     if chunk is None:
         few = max(min(ONE_BY_ONE, plan.points // (4 * workers)), plan.points // MOST_CHUNKS, 1)
@@ -132,8 +133,9 @@ def sweep(
             _read_chunks(folder, rows)
         pool = executor or stack.enter_context(ThreadPoolExecutor(workers, thread_name_prefix="revchain-sweep"))
         done = int(np.count_nonzero(rows["status"]))
-        for more in chain([0], _computed(plan, values, rows, chunk, pool, executor is None, folder)):
-            done += more
+        computed = closing(_computed(plan, values, rows, chunk, pool, executor is None, folder))
+        for points in chain([0], stack.enter_context(computed)):
+            done += points
             if progress is not None:
                 progress(done, plan.points)
         found = dataset(study, plan, values, rows)
@@ -146,7 +148,7 @@ def sweep(
 
 def _computed(
     plan: Plan, values: Values, rows: Rows, chunk: int, pool: Executor, in_place: bool, folder: Path | None
-) -> Iterator[int]:
+) -> Generator[int, None, None]:
     """Compute the points without results and store each chunk in the folder; yield the number of its points."""
     ends = np.flatnonzero(np.diff(rows["status"] == 0, prepend=False, append=False)).reshape(-1, 2)
     pending: set[Future[tuple[int, Rows]]] = set()
@@ -248,14 +250,13 @@ def _remove(folder: Path) -> None:
             folder.rmdir()
 
 
-def checked_ending(path: str | os.PathLike[str]) -> str:
-    """The ending of an output; a missing package that writes it is an error at once."""
+def check_ending(path: str | os.PathLike[str]) -> None:
+    """Raise an error if the ending of an output is unknown, or if a package that writes it is missing."""
     ending = Path(file_path(_PLACE, "the output", path)).suffix.lower()
     if ending not in PACKAGES:
         raise ValueError(f"{os.fspath(path)} must end in .csv, .parquet or .nc")
     for module in PACKAGES[ending]:
         require(module, "sweep", f"a {ending} file")
-    return ending
 
 
 def write(found: Dataset, path: Path) -> None:
@@ -281,7 +282,8 @@ def dataset(study: Study, plan: Plan, values: Values, rows: Rows) -> Dataset:
     """The results as an xarray data set."""
     coordinates: dict[str, Any] = {}
     data: dict[str, Any] = {}
-    points = [axis.name for axis in plan.axes if axis.values is not None] + ["sample"] * any(axis.values is None for axis in plan.axes)
+    grids = [axis.name for axis in plan.axes if axis.values is not None]
+    points = [*grids, *["sample"] * (len(grids) < len(plan.axes))]
     for axis, column in zip(plan.axes, values, strict=True):
         about = {"units": axis.unit, "path": axis.key} if axis.unit else {"path": axis.key}
         if axis.values is None:
