@@ -133,8 +133,9 @@ class Plan:
             data = with_value(data, axis.path, value)
         return data
 
-    def solve(self, values: Values, rows: Rows) -> None:
-        """Put the results at points with these numbers into `rows`; they do not depend on the other points."""
+    def solve(self, values: Values, rows: Rows | None = None) -> Rows:
+        """The results at points with these numbers, put into `rows` if given; they do not depend on the other points."""
+        rows = self.rows(len(values[0])) if rows is None else rows
         if self.links is not None:
             self.links.solve(values, self.blocks[0].labels[0], rows)
         left = np.flatnonzero(rows["status"] == 0)
@@ -154,6 +155,7 @@ class Plan:
                     rows[block.name][k, :there] = result[:there]
                 else:
                     rows[block.name][k : k + 1] = result
+        return rows
 
 
 def answers(scene: Scene, find: Sequence[str]) -> tuple[dict[str, Any], bool]:

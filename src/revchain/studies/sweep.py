@@ -151,16 +151,15 @@ def _computed(
 ) -> Generator[int, None, None]:
     """Compute the points without results and store each chunk in the folder; yield the number of its points."""
     ends = np.flatnonzero(np.diff(rows["status"] == 0, prepend=False, append=False)).reshape(-1, 2)
-    pending: set[Future[tuple[int, Rows]]] = set()
+    pending: dict[Future[Rows], int] = {}
     try:
         for first, last in ends.tolist():
             for start in range(first, last, chunk):
                 part = slice(start, min(start + chunk, last))
                 to = {name: array[part] for name, array in rows.items()} if in_place else None
-                pending.add(pool.submit(_solved, plan, [column[part] for column in values], start, to))
+                pending[pool.submit(plan.solve, [column[part] for column in values], to)] = start
         for future in as_completed(pending):
-            pending.discard(future)  # so that its results are kept once
-            start, found = future.result()
+            start, found = pending.pop(future), future.result()
             stop = start + len(found["status"])
             for name, array in found.items() if not in_place else ():
                 rows[name][start:stop] = array
@@ -171,13 +170,6 @@ def _computed(
     finally:
         for future in pending:
             future.cancel()
-
-
-def _solved(plan: Plan, values: Values, start: int, rows: Rows | None) -> tuple[int, Rows]:
-    """The work of a worker: the first point and the results of a chunk."""
-    rows = plan.rows(len(values[0])) if rows is None else rows
-    plan.solve(values, rows)
-    return start, rows
 
 
 def _processors() -> int:
