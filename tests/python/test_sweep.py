@@ -25,6 +25,7 @@ from studies import GYROSTAT, UNIFORM, normal, uniform, words
 import revchain as rc
 from revchain.cli import app as _cli
 from revchain.plots.sweep import plot_sweep, why_not_drawn
+from revchain.scenes import scene as _scene
 from revchain.scenes.scene import json_schema
 from revchain.studies.axes import Vary
 from revchain.studies.study import Study, study_schema
@@ -170,6 +171,16 @@ def test_only_the_questions_of_find_are_asked(monkeypatch):
     for bounds in (False, True):
         given = study(scene, {"links[0].mass": words(1, 2)}, find=["modes"], error_bounds=bounds)
         assert (given._plan("").links is not None) is not bounds and rc.sweep(given)["status"].all()
+
+
+def test_one_system_serves_all_speeds(monkeypatch):
+    """Points that differ in their speeds alone share a system; that of another point is built again."""
+    speeds, masses = {"from": 1.0, "to": 9.0, "steps": 20}, {"from": 1.0, "to": 2.0, "steps": 3}
+    scene = {**PLUMMETS, "ask": {"shapes": {"angular_speed": 9.0}}}
+    plan = study(scene, {"links[0].mass": masses, "ask.shapes.angular_speed": speeds})._plan("")
+    built, build = [], _scene.system_of
+    monkeypatch.setattr(_scene, "system_of", lambda *given: built.append(given) or build(*given))
+    assert plan.solve(plan.values())["status"].size == 60 and len(built) == 3
 
 
 def test_a_tolerance_that_batches_keep_stays_in_them():

@@ -63,8 +63,8 @@ class Axis:
     name: str  # of the column
     path: Path
     values: NDArray[Any] | None  # of a grid; None if the numbers are random
-    law: str = ""  # "normal", "uniform" or "log_uniform"
-    law_numbers: tuple[float, float] = (0.0, 0.0)  # mean and deviation, or low and high end
+    law: str  # the key that gives the values: "from", "values", or a law of random numbers
+    law_numbers: tuple[float, float]  # mean and deviation, or low and high end; zeros of a grid
 
     @property
     def is_number(self) -> bool:

@@ -24,6 +24,7 @@ SUCCESS, NOT_MET, REFUSED = 1, 2, 3  # the status of a point; 0 if it has not be
 STATUS = ("success", "tolerance_not_met", "refused")
 Values = list[NDArray[Any]]  # the numbers of each axis, one for each point
 Rows = dict[str, NDArray[Any]]  # arrays by name, with a row for each point
+Labels = dict[str, tuple[int, ...]]  # by name of an output its modes, shapes or speeds; empty for one number
 
 
 class Output(NamedTuple):
@@ -74,24 +75,6 @@ OUTPUTS = {
 }
 
 
-@dataclass(frozen=True)
-class Block:
-    """A result of each point of a study: one number, or one for each mode, shape or speed."""
-
-    name: str  # a key of `OUTPUTS`
-    labels: tuple[int, ...]  # numbers of the modes, shapes or speeds; empty for one number
-
-    @property
-    def output(self) -> Output:
-        """What the result is."""
-        return OUTPUTS[self.name]
-
-    @property
-    def columns(self) -> list[str]:
-        """Names of its columns in a table."""
-        return [f"{self.name}_{label}" for label in self.labels] or [self.name]
-
-
 @dataclass(frozen=True, eq=False)
 class Plan:
     """The data that a worker needs; they can be sent to another process."""
@@ -101,7 +84,7 @@ class Plan:
     shape: tuple[int, ...]  # number of values of each grid, then of samples; the last one varies fastest
     seed: int
     find: tuple[str, ...]  # "modes", "shapes", "response"
-    blocks: tuple[Block, ...]  # the results
+    outputs: Labels
     links: Links | None  # how links follow the varied numbers, if heights come from `revchain.conical_heights`
 
     @property
@@ -112,8 +95,8 @@ class Plan:
     def rows(self, points: int) -> Rows:
         """Arrays for the results and the status of this number of points."""
         found = {
-            block.name: np.zeros((points, len(block.labels)) if block.labels else points, block.output.kind)
-            for block in self.blocks
+            name: np.zeros((points, len(labels)) if labels else points, OUTPUTS[name].kind)
+            for name, labels in self.outputs.items()
         }
         return {**found, "status": np.zeros(points, np.int8)}
 
@@ -137,24 +120,30 @@ class Plan:
         """The results at points with these numbers, put into `rows` if given; they do not depend on the other points."""
         rows = self.rows(len(values[0])) if rows is None else rows
         if self.links is not None:
-            self.links.solve(values, self.blocks[0].labels[0], rows)
+            self.links.solve(values, self.outputs["conical_height"][0], rows)
         left = np.flatnonzero(rows["status"] == 0)
-        for block in self.blocks if left.size else ():
-            rows[block.name][left] = math.nan if block.output.kind == "f8" else 0
+        for name in self.outputs if left.size else ():
+            rows[name][left] = math.nan if OUTPUTS[name].kind == "f8" else 0
+        fixed, built = None, None  # the system of the point before, and the varied numbers on which it depends
         for k, *numbers in zip(left.tolist(), *(column[left].tolist() for column in values), strict=True):
             try:
-                found, proved = answers(convert(self.scene(numbers), Scene), self.find)  # the questions check the scene
+                scene = convert(self.scene(numbers), Scene)  # the questions check the scene
+                given = [number for number, axis in zip(numbers, self.axes, strict=True) if axis.path[0] != "ask"]
+                if given == fixed:
+                    scene._made()["system"] = built
+                fixed, built = given, scene._built()
+                found, proved = answers(scene, self.find)
             except (ValueError, OverflowError):
                 rows["status"][k] = REFUSED
                 continue
             rows["status"][k] = SUCCESS if proved else NOT_MET
-            for block in self.blocks:
-                result = block.output.of(found[block.output.question])
-                if block.labels:
-                    there = min(len(result), len(block.labels))
-                    rows[block.name][k, :there] = result[:there]
+            for name, labels in self.outputs.items():
+                result = OUTPUTS[name].of(found[OUTPUTS[name].question])
+                if labels:
+                    there = min(len(result), len(labels))
+                    rows[name][k, :there] = result[:there]
                 else:
-                    rows[block.name][k : k + 1] = result
+                    rows[name][k : k + 1] = result
         return rows
 
 
@@ -190,8 +179,8 @@ def asked_of(scene: Scene, wanted: Sequence[str] | UnsetType, numbers: Numbers) 
     return tuple(asked)
 
 
-def blocks_of(scene: Scene, largest: Scene, find: tuple[str, ...], max_shapes: int, bounds: bool) -> tuple[Block, ...]:
-    """The results of each point; `largest` is the scene of the point with the most modes."""
+def outputs_of(scene: Scene, largest: Scene, find: tuple[str, ...], max_shapes: int, bounds: bool) -> Labels:
+    """The outputs of a study; `largest` is the scene of the point with the most modes."""
     kinds = ("", "rig", *["spinning"] * scene.system().has_momentum) if scene.is_rigged else ("", "other")
     labels: dict[str, tuple[int, ...]] = {"": (), "shape": tuple(range(1, max_shapes + 1))}
     if "modes" in find:
@@ -199,11 +188,16 @@ def blocks_of(scene: Scene, largest: Scene, find: tuple[str, ...], max_shapes: i
     if "response" in find:
         count = _speeds_of(scene.ask.response)
         labels["speed"] = tuple(range(1, count + 1)) if count > 1 else ()
-    return tuple(
-        Block(name, labels[output.along])
+    return {
+        name: labels[output.along]
         for name, output in OUTPUTS.items()
         if output.question in find and output.only in kinds and (bounds or not name.endswith("error_bound"))
-    )
+    }
+
+
+def columns_of(name: str, labels: tuple[int, ...]) -> list[str]:
+    """Names of the columns of an output in a table."""
+    return [f"{name}_{label}" for label in labels] or [name]
 
 
 def _modes_of(scene: Scene, largest: Scene) -> tuple[int, ...]:

@@ -19,7 +19,7 @@ from ..scenes.tables import Table, says
 from ..systems.numbers import file_path, integer, text
 from .axes import LAWS, MAX_POINTS, Axis, Samples, Vary, axis_of, with_value
 from .batch import links_of
-from .plan import Plan, answers, asked_of, blocks_of
+from .plan import Plan, answers, asked_of, columns_of, outputs_of
 
 __all__ = ["Study", "load_study"]
 
@@ -229,13 +229,13 @@ class Study(Table, frozen=True):
         shape = (*grids, samples) if random else tuple(grids)
         links = links_of(scene, axes) if batched else None
         bounds = links is None if isinstance(self.error_bounds, UnsetType) else self.error_bounds
-        blocks = blocks_of(scene, _largest(base, axes, source), find, self.max_shapes, bounds)
-        columns = {column for block in blocks for column in block.columns} | {"point", "status"}
-        columns |= {block.name for block in blocks} | {"mode", "shape", "speed", "sample"}
+        outputs = outputs_of(scene, _largest(base, axes, source), find, self.max_shapes, bounds)
+        columns = {"point", "status", "mode", "shape", "speed", "sample", *outputs}
+        columns.update(*(columns_of(*output) for output in outputs.items()))
         for axis in axes:
             if axis.name in columns:
                 numbers.of(joined("vary", axis.key)).refuse("name", f"{axis.name} is the name of a result")
-        plan = Plan(base, axes, shape, self.seed, find, blocks, links)
+        plan = Plan(base, axes, shape, self.seed, find, outputs, links)
         if plan.points > MAX_POINTS:
             numbers.refuse("vary", f"makes {plan.points:,} points; at most {MAX_POINTS:,}")
         numbers.done()

@@ -22,7 +22,7 @@ from ..results.files import OutputError, hdf5_file, naming, written_aside
 from ..systems.extras import require
 from ..systems.numbers import count as checked_count
 from ..systems.numbers import file_path, shown
-from .plan import STATUS, Plan, Rows, Values
+from .plan import OUTPUTS, STATUS, Plan, Rows, Values
 from .study import Study, load_study
 
 if TYPE_CHECKING:
@@ -282,11 +282,11 @@ def dataset(study: Study, plan: Plan, values: Values, rows: Rows) -> Dataset:
             data[axis.name] = points, column.reshape(plan.shape), about
         else:
             coordinates[axis.name] = axis.name, axis.values, about
-    for block in plan.blocks:
-        along, unit = [block.output.along] * bool(block.labels), block.output.unit
-        array = rows[block.name].reshape(*plan.shape, *[len(block.labels)] * len(along))
-        data[block.name] = [*points, *along], array, {"units": unit} if unit else {}
-        coordinates |= {name: (name, np.array(block.labels)) for name in along}
+    for name, labels in plan.outputs.items():
+        along, unit = [OUTPUTS[name].along] * bool(labels), OUTPUTS[name].unit
+        array = rows[name].reshape(*plan.shape, *[len(labels)] * len(along))
+        data[name] = [*points, *along], array, {"units": unit} if unit else {}
+        coordinates |= {dimension: (dimension, np.array(labels)) for dimension in along}
     flags = {"flag_values": np.arange(1, 4, dtype=np.int8), "flag_meanings": " ".join(STATUS)}
     data["status"] = points, rows["status"].reshape(plan.shape), flags
     about = {"title": study.title, "study": json.dumps(study.to_dict())}
