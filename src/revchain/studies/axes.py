@@ -86,7 +86,7 @@ class Axis:
         return np.unique(self.values).tolist()  # type: ignore[no-any-return]
 
     def drawn(self, seed: int, count: int) -> Floats:
-        """The random numbers of the first `count` points; each depends only on seed, path and the number of its point."""
+        """Random numbers of the first `count` points; each depends only on seed, path and the number of its point."""
         key = zlib.crc32(self.key.encode()), 0
         stream = np.random.Generator(np.random.SFC64(np.random.SeedSequence(seed, spawn_key=key)))
         one, two = map(math.log, self.law_numbers) if self.law == "log_uniform" else self.law_numbers

@@ -98,8 +98,8 @@ def links_of(scene: Scene, axes: Sequence[Axis]) -> Links | None:
     gravity_axis = next((k for k, axis in enumerate(axes) if axis.path == ("gravity",)), None)
     found = Links(factor[:rows], follows[:, :rows], scene.gravity_value(), gravity_axis)
     rtol = 4e-16 * (1 + len(axes))
-    columns = found.arguments(list(together[:, np.newaxis])).values()
-    return found if all(np.allclose(one[0], two, rtol, 0) for one, two in zip(columns, expected)) else None
+    pairs = zip(found.arguments(list(together[:, np.newaxis])).values(), expected[:rows], strict=True)
+    return found if all(np.allclose(one[0], two, rtol, 0) for one, two in pairs) else None
 
 
 def _is_answered(scene: Scene) -> bool:

@@ -117,7 +117,7 @@ class Plan:
         return data
 
     def solve(self, values: Values, rows: Rows | None = None) -> Rows:
-        """The results at points with these numbers, put into `rows` if given; they do not depend on the other points."""
+        """Results at points with these numbers, put into `rows` if given; they do not depend on the other points."""
         rows = self.rows(len(values[0])) if rows is None else rows
         if self.links is not None:
             self.links.solve(values, self.outputs["conical_height"][0], rows)

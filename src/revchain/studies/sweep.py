@@ -60,8 +60,8 @@ def sweep(
     workers : int, optional
         Number of threads, or of workers of the executor; one for each processor if left out.
     chunk : int, optional
-        Number of points that are computed and stored together. If left out, 65,536 points of a batch, or up to 100 points
-        that are solved one by one, 1/10,000 of all points if that is more.
+        Number of points that are computed and stored together. If left out, 65,536 points of a batch, or up to 100
+        points that are solved one by one (a ten-thousandth of all points if that is more).
     progress : callable, optional
         Function that is called repeatedly with the number of finished points and the number of all points.
 
