@@ -17,8 +17,9 @@ import typer
 
 from ..plots.sweep import plot_sweep, why_not_drawn
 from ..results.files import written_aside
+from ..studies.plan import columns_of
 from ..studies.study import Study, load_study
-from ..studies.sweep import checked_ending, columns
+from ..studies.sweep import check_ending, columns
 from ..studies.sweep import sweep as compute
 from . import ExitCode
 from .frame import Stop, app, checked_picture, epilog, guarded, save_picture
@@ -63,7 +64,7 @@ def sweep(
     if out.resolve() == study.resolve():
         raise Stop(f"{study}: the study itself would be overwritten", ExitCode.WRONG_USAGE)
     try:
-        checked_ending(out)
+        check_ending(out)
     except ValueError as error:
         raise Stop(str(error), ExitCode.WRONG_USAGE) from None
     began = time.perf_counter()
@@ -101,8 +102,9 @@ def _plan(study: Study, source: str) -> list[str]:
             ends = [value if isinstance(value, str) else f"{value:g}" for value in axis.values[[0, -1]].tolist()]
             what = f"{axis.values.size:,} values, {ends[0]} to {ends[1]}"
         lines.append(f"  {axis.name}: {what}")
-    for block in plan.blocks:
-        lines.append(f"  finds {' … '.join(dict.fromkeys([block.columns[0], block.columns[-1]]))}")
+    for output in plan.outputs.items():
+        names = columns_of(*output)
+        lines.append(f"  finds {' … '.join(dict.fromkeys([names[0], names[-1]]))}")
     return lines
 
 

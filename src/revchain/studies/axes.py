@@ -17,21 +17,19 @@ from numpy.typing import NDArray
 from ..scenes import parse
 from ..scenes.system import Numbers
 from ..scenes.tables import Link, Table, fields_of, says
+from ..systems.datum import Path, steps
 from ..systems.numbers import Floats
 from ..systems.units import SI
 
-BLOCK = 65536  # points in a block of random numbers; each block has its own stream
 MAX_STEPS = 10**7
 MAX_POINTS = 10**12
 LAWS = ("uniform", "normal", "log_uniform")
 
-Path = tuple[str | int, ...]
 NumberOrText = float | str
 Samples = Annotated[int, Meta(ge=1, le=MAX_POINTS)]
 Listed = Annotated[list[bool | float | str], Meta(min_length=1)]
 TwoNumbers = Annotated[list[NumberOrText], Meta(min_length=2, max_length=2)]
 
-_PATH = re.compile(r"[a-z_]+(\[\d{1,9}\])?(\.[a-z_]+(\[\d{1,9}\])?)*")
 _SPEED = r"\.(angular_speed|conical_height)"
 _ASKED = re.compile(rf"ask\.(shapes{_SPEED}|response{_SPEED}(\[\d+\]|\.from|\.to)?)")
 _PERCENT = re.compile(r"[^%]*%\s*")
@@ -65,8 +63,8 @@ class Axis:
     name: str  # of the column
     path: Path
     values: NDArray[Any] | None  # of a grid; None if the numbers are random
-    law: str = ""  # "normal", "uniform" or "log_uniform"
-    law_numbers: tuple[float, float] = (0.0, 0.0)  # mean and deviation, or low and high end
+    law: str  # the key that gives the values: "from", "values", or a law of random numbers
+    law_numbers: tuple[float, float]  # mean and deviation, or low and high end; zeros of a grid
 
     @property
     def is_number(self) -> bool:
@@ -87,26 +85,13 @@ class Axis:
             return [self.values.min().item(), self.values.max().item()]
         return np.unique(self.values).tolist()  # type: ignore[no-any-return]
 
-    def drawn(self, seed: int, start: int, stop: int) -> Floats:
-        """The random numbers of the points start <= k < stop; each depends only on seed, path and k."""
-        blocks = range(start // BLOCK, -(-stop // BLOCK))
-        return np.concatenate([self._drawn(seed, block, min(stop - block * BLOCK, BLOCK)) for block in blocks])[
-            start % BLOCK :
-        ]
-
-    def _drawn(self, seed: int, block: int, count: int) -> Floats:
-        key = zlib.crc32(self.key.encode()), block
+    def drawn(self, seed: int, count: int) -> Floats:
+        """Random numbers of the first `count` points; each depends only on seed, path and the number of its point."""
+        key = zlib.crc32(self.key.encode()), 0
         stream = np.random.Generator(np.random.SFC64(np.random.SeedSequence(seed, spawn_key=key)))
         one, two = map(math.log, self.law_numbers) if self.law == "log_uniform" else self.law_numbers
-        numbers = stream.standard_normal(count) if self.law == "normal" else stream.random(count)
-        numbers *= two if self.law == "normal" else two - one
-        numbers += one
+        numbers = stream.normal(one, two, count) if self.law == "normal" else stream.uniform(one, two, count)
         return np.exp(numbers, out=numbers) if self.law == "log_uniform" else numbers
-
-
-def quantity_of(path: Path) -> str:
-    """The quantity of the number at a path, a key of `systems.units.SI`; a length if the name is not one."""
-    return next((step for step in reversed(path) if isinstance(step, str) and step in SI), "length")
 
 
 def with_value(data: Any, path: Path, value: Any) -> Any:
@@ -124,93 +109,90 @@ def with_value(data: Any, path: Path, value: Any) -> Any:
     return [*data[:step], with_value(data[step], rest, value), *data[step + 1 :]]
 
 
-def _path_of(text: str, numbers: Numbers) -> Path:
-    """The steps of a path; empty for a wrong path, which is noted."""
-    right = re.sub(r"^link\[", "links[", text.removeprefix("scene."))
-    if (link := re.fullmatch(r"(links\.)?(\w+)", right)) and link[2] in [field.name for field in fields_of(Link)]:
-        right = f"links[0].{link[2]}"
-    if _PATH.fullmatch(text) is None:
-        numbers.refuse("", "is no path into a scene such as links[0].mass")
-    elif right != text:
-        numbers.refuse("", f'is no path into a scene: write "{right}"')
-    elif text in ("title", "description", "schema_version", "held") or text.endswith(".name"):
-        numbers.refuse("", "cannot be varied")
-    elif text.startswith("ask") and _ASKED.fullmatch(text) is None:
-        numbers.refuse("", "cannot be varied: of [ask] only the speeds of ask.shapes and ask.response can")
-    else:
-        return tuple(int(index) if index else name for name, index in re.findall(r"([a-z_]+)|\[(\d+)\]", text))
-    return ()
-
-
 def axis_of(key: str, table: Vary, kind: type, numbers: Numbers) -> Axis | None:
     """The axis of an entry of [vary]; None if it is wrong, which is noted. `kind` is the class of scenes."""
-    known, path = len(numbers.problems), _path_of(key, numbers)
+    known, path = len(numbers.problems), steps(key)
+    if reason := _why_not_varied(key, path):
+        numbers.refuse("", reason)
     name = key if isinstance(table.name, UnsetType) else table.name
     if not name.strip() or "/" in name or name == "." or not name.isprintable():
         numbers.refuse("name", f'must be a printable name without "/", got {parse.written(name)}')
-    given = [law for law in ("values", *LAWS) if getattr(table, law) is not UNSET]
-    if table.first is not UNSET or table.last is not UNSET or table.steps is not UNSET:
-        given.insert(0, "from")
-    if len(given) != 1:
+    is_grid = any(given is not UNSET for given in (table.first, table.last, table.steps))
+    laws = ["from"] * is_grid + [law for law in ("values", *LAWS) if getattr(table, law) is not UNSET]
+    if len(laws) != 1:
         choice = "give from, to and steps, or one of values, uniform, normal, log_uniform"
-        numbers.refuse("", choice + (f"; got {' and '.join(given)}" if given else ""))
-    elif table.log and given[0] != "from":
+        numbers.refuse("", choice + (f"; got {' and '.join(laws)}" if laws else ""))
+    elif table.log and not is_grid:
         numbers.refuse("log", "goes with from, to and steps")
-    if not path or len(given) != 1:
+    if reason or len(laws) != 1:
         return None
     annotation = parse._annotation_at(kind, key.rpartition("[")[0] if key.endswith("]") else key)
-    parts, quantity = list(parse._parts_of(annotation)), quantity_of(path)
-    whole = int in parts and float not in parts
-    values, law, ends = None, "", (0.0, 0.0)
-    if given[0] in LAWS and (whole or not (annotation is None or float in parts)):
+    parts, values, ends = list(parse._parts_of(annotation)), None, (0.0, 0.0)
+    is_whole = int in parts and float not in parts
+    if laws[0] in LAWS and (is_whole or not (annotation is None or float in parts)):
         numbers.refuse("", "takes no random numbers; give values")
-    elif given[0] in LAWS:
-        law, ends = given[0], _law(given[0], getattr(table, given[0]), quantity, numbers)
-    elif given[0] == "from":
-        values = _grid(table, quantity, whole, numbers)
+    elif laws[0] in LAWS:
+        ends = _law(laws[0], getattr(table, laws[0]), quantity_of(path), numbers)
+    elif is_grid:
+        values = _grid(table, quantity_of(path), numbers)
     else:
-        values = _listed(table, parts, quantity, whole, numbers)
-    return Axis(key, name, path, values, law, ends) if len(numbers.problems) == known else None
+        values = _listed(table.values, parts, quantity_of(path), numbers)
+    if is_whole and values is not None and np.isfinite(values).all():
+        for k in np.flatnonzero(values != np.round(values))[:1].tolist():
+            such = "makes numbers that are not whole, such as" if is_grid else "must be a whole number, got"
+            numbers.refuse("steps" if is_grid else f"values[{k}]", f"{such} {values[k]:g}")
+        values = values.astype(np.int64)
+    return Axis(key, name, path, values, laws[0], ends) if len(numbers.problems) == known else None
 
 
-def _number(key: str, given: Any, quantity: str, whole: bool, numbers: Numbers) -> float:
-    found = numbers.value(key, given, quantity, "any")
-    if whole and math.isfinite(found) and found != round(found):
-        numbers.refuse(key, f"must be a whole number, got {parse.written(given)}")
-    return found
+def _why_not_varied(text: str, path: Path) -> str:
+    """The reason why the value at a path cannot be varied; empty if it can."""
+    right = re.sub(r"^link\[", "links[", text.removeprefix("scene."))
+    if (last := right.removeprefix("links.")) in [field.name for field in fields_of(Link)]:
+        right = f"links[0].{last}"
+    if not path:
+        return "is no path into a scene such as links[0].mass"
+    if right != text:
+        return f'is no path into a scene: write "{right}"'
+    if text in ("title", "description", "schema_version", "held") or path[-1] == "name":
+        return "cannot be varied"
+    if path[0] == "ask" and _ASKED.fullmatch(text) is None:
+        return "cannot be varied: of [ask] only the speeds of ask.shapes and ask.response can"
+    return ""
 
 
-def _grid(table: Vary, quantity: str, whole: bool, numbers: Numbers) -> NDArray[Any] | None:
+def quantity_of(path: Path) -> str:
+    """The quantity of the number at a path, a key of `systems.units.SI`; a length if the name is not one."""
+    return next((step for step in reversed(path) if isinstance(step, str) and step in SI), "length")
+
+
+def _grid(table: Vary, quantity: str, numbers: Numbers) -> Floats | None:
+    """The values from one end to the other; None if they are wrong, which is noted."""
     for key, value in (("from", table.first), ("to", table.last), ("steps", table.steps)):
         if value is UNSET:
             numbers.refuse(key, "is missing")
-    low = _number("from", table.first, quantity, whole, numbers)
-    high = _number("to", table.last, quantity, whole, numbers)
+    low, high = (numbers.value(key, end, quantity, "any") for key, end in (("from", table.first), ("to", table.last)))
     if isinstance(table.steps, UnsetType) or math.isnan(low + high):
         return None
     if table.steps > MAX_STEPS:
         numbers.refuse("steps", f"must be at most {MAX_STEPS:,}, got {table.steps:,}")
-        return None
-    if table.log and not (low > 0 and high > 0):
+    elif table.log and min(low, high) <= 0:
         numbers.refuse("log", "needs from and to that are positive")
-        return None
-    values = np.geomspace(low, high, table.steps) if table.log else np.linspace(low, high, table.steps)
-    if whole and np.any(values != np.round(values)):
-        numbers.refuse("steps", f"makes numbers that are not whole, such as {values[1]:g}")
-    return values.astype(np.int64) if whole else values
+    else:
+        return (np.geomspace if table.log else np.linspace)(low, high, table.steps)
+    return None
 
 
-def _listed(table: Vary, parts: list[Any], quantity: str, whole: bool, numbers: Numbers) -> NDArray[Any]:
-    assert isinstance(table.values, list)
+def _listed(given: Any, parts: list[Any], quantity: str, numbers: Numbers) -> NDArray[Any]:
+    """The values of a list: words, true and false, or numbers."""
     if any(get_origin(part) is Literal or part is bool for part in parts):
-        if len({type(value) for value in table.values}) != 1:
+        if len({type(value) for value in given}) != 1:
             numbers.refuse("values", "must be all of one kind")
-        return np.array(table.values)
-    for k, value in enumerate(table.values):
+        return np.array(given)
+    for k, value in enumerate(given):
         if isinstance(value, bool):
             numbers.refuse(f"values[{k}]", f"must be a number, got {parse.written(value)}")
-    values = np.array([_number(f"values[{k}]", x, quantity, whole, numbers) for k, x in enumerate(table.values)])
-    return values.astype(np.int64) if whole and np.isfinite(values).all() else values
+    return np.array([numbers.value(f"values[{k}]", value, quantity, "any") for k, value in enumerate(given)])
 
 
 def _law(law: str, given: Sequence[Any], quantity: str, numbers: Numbers) -> tuple[float, float]:

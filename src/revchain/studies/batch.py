@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
@@ -29,52 +30,38 @@ _NAMES = ("weight", "length", "centroid", "radius_of_gyration")
 class Links:
     """The numbers of all links: a factor for each, times the varied numbers that it follows."""
 
-    factor: Floats  # shape (4, links): weight, length, centroid, radius of gyration
-    follows: NDArray[np.bool_]  # shape (axes, 4, links)
+    factor: Floats  # a row each for weight and length and, unless all links are point masses, for the rest of `_NAMES`
+    follows: NDArray[np.bool_]  # shape (axes, rows, links)
     gravity: float  # unless it varies
+    gravity_axis: int | None
 
-    def columns(self, values: Sequence[Floats]) -> dict[str, Any]:
+    def arguments(self, values: Sequence[Floats]) -> dict[str, Any]:
         """The arguments of `conical_heights` at points with these values of the axes."""
         found = {}
-        for k, name in enumerate(_NAMES[: 2 if self.are_plummets else 4]):
-            follows = self.follows[:, k]
-            table = np.empty((len(values[0]) if follows.any() else 1, follows.shape[1]))
-            for link, factor in enumerate(self.factor[k]):
-                product = factor
+        for name, factors, follows in zip(_NAMES, self.factor, np.swapaxes(self.follows, 0, 1), strict=False):
+            table = np.empty((len(values[0]) if follows.any() else 1, len(factors)))
+            for link, product in enumerate(factors):
                 for axis in np.flatnonzero(follows[:, link]).tolist():
                     product = np.multiply(product, values[axis], out=table[:, link])
                 table[:, link] = product
             found[name] = table
         return found
 
-    @property
-    def are_plummets(self) -> bool:
-        """Whether all links are point masses at every point."""
-        same = np.array_equal(self.factor[1], self.factor[2]) and np.array_equal(self.follows[:, 1], self.follows[:, 2])
-        return same and not self.factor[3].any()
-
-    def solve(self, values: Sequence[Floats], first: int, to: Mapping[str, Floats]) -> None:
-        """Put heights and status 1 into `to`, a row for each point; the first column is of mode `first`.
+    def solve(self, values: Sequence[Floats], first: int, to: Mapping[str, NDArray[Any]]) -> None:
+        """Put heights, speeds and status 1 into `to`, a row for each point; the first column is of mode `first`.
 
         Points stay unchanged if `conical_heights` refuses them or a varied number is not positive.
         """
-        usual = np.logical_and.reduce([column > 0 for column in values])
-        rows = None if usual.all() else np.flatnonzero(usual)
-        for start in range(0, len(usual) if rows is None else len(rows), SLICE):
-            part = slice(start, min(start + SLICE, len(usual)))
-            self._solve(values, part if rows is None else rows[part], first, to)
-
-    def _solve(self, values: Any, rows: slice | NDArray[np.int64], first: int, to: Any) -> None:
-        """Solve some points; if they are refused, each half of them."""
-        count = first - 1 + to["conical_height"].shape[1]
-        try:
-            heights = conical_heights(**self.columns([column[rows] for column in values]), count=count)[:, first - 1 :]
-        except ValueError:
-            each = np.arange(len(values[0]))[rows]
-            for half in np.array_split(each, 2) if len(each) > 1 else ():
-                self._solve(values, half, first, to)
-        else:
-            to["conical_height"][rows], to["status"][rows] = heights, 1
+        size, each = to["conical_height"].shape
+        if size <= SLICE and all(column.min() > 0 for column in values):
+            with suppress(ValueError):
+                heights = conical_heights(**self.arguments(values), count=first - 1 + each)[:, first - 1 :]
+                gravity = self.gravity if self.gravity_axis is None else values[self.gravity_axis][:, np.newaxis]
+                to["conical_height"][:], to["status"][:] = heights, 1
+                np.divide(np.sqrt(gravity), np.sqrt(heights), out=to["angular_speed"])
+                return
+        for half in (slice(size // 2), slice(size // 2, size)) if size > 1 else ():
+            self.solve([column[half] for column in values], first, {name: array[half] for name, array in to.items()})
 
 
 def links_of(scene: Scene, axes: Sequence[Axis]) -> Links | None:
@@ -100,17 +87,19 @@ def links_of(scene: Scene, axes: Sequence[Axis]) -> Links | None:
     try:
         own = links_at(middle)
         alone = np.array([links_at(np.where(np.arange(len(axes)) == k, 1.25, 1) * middle) for k in range(len(axes))])
-        follows = alone != own
-        product = np.array([np.where(follows[k], middle[k], 1.0) for k in range(len(axes))]).prod(axis=0)
         together = middle * (1 + 0.3 / np.arange(2, len(axes) + 2))
-        found = Links(own / product, follows, scene.gravity_value())
-        columns = found.columns(list(together[:, np.newaxis]))
-        expected = links_at(together)[: len(columns)]
+        expected = links_at(together)
     except ValueError:
         return None
+    follows = alone != own
+    factor = own / np.where(follows, middle[:, np.newaxis, np.newaxis], 1.0).prod(axis=0)
+    are_plummets = np.array_equal(own[1], own[2]) and np.array_equal(follows[:, 1], follows[:, 2]) and not own[3].any()
+    rows = 2 if are_plummets else 4
+    gravity_axis = next((k for k, axis in enumerate(axes) if axis.path == ("gravity",)), None)
+    found = Links(factor[:rows], follows[:, :rows], scene.gravity_value(), gravity_axis)
     rtol = 4e-16 * (1 + len(axes))
-    right = all(np.allclose(column[0], own, rtol, 0) for column, own in zip(columns.values(), expected, strict=True))
-    return found if right else None
+    pairs = zip(found.arguments(list(together[:, np.newaxis])).values(), expected[:rows], strict=True)
+    return found if all(np.allclose(one[0], two, rtol, 0) for one, two in pairs) else None
 
 
 def _is_answered(scene: Scene) -> bool:

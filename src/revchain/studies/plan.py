@@ -4,9 +4,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from functools import partial
+from operator import attrgetter
+from typing import Any, NamedTuple
 
 import numpy as np
 from msgspec import UNSET, UnsetType, convert
@@ -19,37 +21,58 @@ from .axes import Axis, with_value
 from .batch import Links
 
 SUCCESS, NOT_MET, REFUSED = 1, 2, 3  # the status of a point; 0 if it has not been computed
-Rows = dict[str, NDArray[Any]]  # arrays by name, with a row for each point
 STATUS = ("success", "tolerance_not_met", "refused")
-_SPEED = ("angular_speed", "conical_height", "error_bound", "speed_error_bound")
-_SHAPE = ("lowest_inclination", "top_inclination", "free_end_offset", "top_tension")
-_RESPONSE = ("response_angular_speed", "response_free_end_offset", "response_largest_offset", "support_force")
-_UNITS = {"speed": "rad/s", "height": "m", "inclination": "rad", "offset": "m", "tension": "N", "force": "N"}
+Values = list[NDArray[Any]]  # the numbers of each axis, one for each point
+Rows = dict[str, NDArray[Any]]  # arrays by name, with a row for each point
+Labels = dict[str, tuple[int, ...]]  # by name of an output its modes, shapes or speeds; empty for one number
 
 
-@dataclass(frozen=True)
-class Block:
-    """A result of each point: one number, or one for each mode, shape or speed."""
+class Output(NamedTuple):
+    """A result that a study can store, and how it is found."""
 
-    name: str
-    kind: str  # "f8", "i8" or "?"; NaN, 0 or False stands for a missing result
+    question: str  # "modes", "shapes" or "response"
+    of: Callable[[Any], Any]  # one number, or a list of them, from the answer to the question
+    unit: str = ""
+    kind: str = "f8"  # "f8", "i8" or "?"; NaN, 0 or False stands for a missing result
     along: str = ""  # "mode", "shape", "speed", or empty for one number
-    labels: tuple[int, ...] = ()  # numbers of the modes, shapes or speeds
+    only: str = ""  # "rig", "spinning" (a rig with momentum) or "other" (not a rig); empty for all systems
 
-    @property
-    def each(self) -> tuple[int, ...]:
-        """The shape of the results of one point."""
-        return (len(self.labels),) if self.along else ()
 
-    @property
-    def columns(self) -> list[str]:
-        """Names of its columns in a table."""
-        return [f"{self.name}_{label}" for label in self.labels] if self.along else [self.name]
+def _turning(name: str, sign: int, modes: Any) -> Any:
+    """The sizes of speeds, heights or bounds of the modes that turn in one direction."""
+    return np.abs(getattr(modes, name)[modes.direction == sign])
 
-    @property
-    def unit(self) -> str:
-        """The SI unit; empty for a number without one."""
-        return _UNITS.get(self.name.rpartition("_")[2], "")
+
+def _of_each(name: str, link: int, shapes: Any) -> list[Any]:
+    return [getattr(shape, name)[link] for shape in shapes]
+
+
+_OF_MODES = {"angular_speed": "rad/s", "conical_height": "m", "error_bound": "", "speed_error_bound": ""}
+_TURNS = (("forward", 1, "rig"), ("backward", -1, "spinning"))
+_ANSWERS = {"modes": Scene.modes, "shapes": Scene.steady_shapes, "response": Scene.response}
+OUTPUTS = {
+    **{name: Output("modes", attrgetter(name), _OF_MODES[name], "f8", "mode", "other") for name in list(_OF_MODES)[:3]},
+    **{
+        f"{turn}_{name}": Output("modes", partial(_turning, name, sign), unit, "f8", "mode", only)
+        for turn, sign, only in _TURNS
+        for name, unit in _OF_MODES.items()
+    },
+    "other_modes": Output("modes", attrgetter("other_available"), kind="i8", only="rig"),
+    "modes_complete": Output("modes", attrgetter("complete"), kind="?", only="rig"),
+    "shapes": Output("shapes", len, kind="i8"),
+    "shapes_complete": Output("shapes", attrgetter("complete"), kind="?"),
+    "half_waves": Output("shapes", lambda shapes: [shape.half_waves for shape in shapes], kind="i8", along="shape"),
+    "lowest_inclination": Output("shapes", partial(_of_each, "inclination", 0), "rad", along="shape"),
+    "top_inclination": Output("shapes", partial(_of_each, "inclination", -1), "rad", along="shape"),
+    "free_end_offset": Output("shapes", partial(_of_each, "offset", 0), "m", along="shape"),
+    "top_tension": Output("shapes", partial(_of_each, "tension", -1), "N", along="shape"),
+    "shape_error_bound": Output("shapes", lambda shapes: [shape.error_bound for shape in shapes], along="shape"),
+    "response_angular_speed": Output("response", attrgetter("angular_speed"), "rad/s", along="speed"),
+    "response_free_end_offset": Output("response", lambda moved: moved.offset[..., 0], "m", along="speed"),
+    "response_largest_offset": Output("response", lambda moved: np.abs(moved.offset).max(axis=-1), "m", along="speed"),
+    "support_force": Output("response", attrgetter("support_force"), "N", along="speed"),
+    "response_error_bound": Output("response", attrgetter("error_bound"), along="speed"),
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +84,7 @@ class Plan:
     shape: tuple[int, ...]  # number of values of each grid, then of samples; the last one varies fastest
     seed: int
     find: tuple[str, ...]  # "modes", "shapes", "response"
-    blocks: tuple[Block, ...]  # the results
+    outputs: Labels
     links: Links | None  # how links follow the varied numbers, if heights come from `revchain.conical_heights`
 
     @property
@@ -69,25 +92,22 @@ class Plan:
         """Number of points."""
         return math.prod(self.shape)
 
-    def zeros(self, points: int) -> Rows:
-        """Arrays for the random numbers, the results and the status of this number of points."""
-        random = {axis.name: np.zeros(points) for axis in self.axes if axis.values is None}
-        results = {block.name: np.zeros((points, *block.each), block.kind) for block in self.blocks}
-        return {**random, **results, "status": np.zeros(points, np.int8)}
+    def rows(self, points: int) -> Rows:
+        """Arrays for the results and the status of this number of points."""
+        found = {
+            name: np.zeros((points, len(labels)) if labels else points, OUTPUTS[name].kind)
+            for name, labels in self.outputs.items()
+        }
+        return {**found, "status": np.zeros(points, np.int8)}
 
-    def values(self, start: int, stop: int) -> list[NDArray[Any]]:
-        """The numbers of each axis at the points start <= k < stop."""
-        found, after = [], self.points
-        for axis in self.axes:
-            if axis.values is None:
-                found.append(axis.drawn(self.seed, start, stop))
-                continue
-            size = axis.values.size
-            after //= size  # points with the same number, one after the other
-            first, last = start // after, -(-stop // after)
-            runs = np.tile(axis.values, -(-(last - first) // size) + 1)[first % size :][: last - first]
-            found.append(np.repeat(runs, after)[start - first * after :][: stop - start])
-        return found
+    def values(self) -> Values:
+        """The numbers of each axis at all points."""
+        grids = [axis.values for axis in self.axes if axis.values is not None]
+        samples, meshes = self.points // math.prod(map(len, grids)), iter(np.meshgrid(*grids, indexing="ij"))
+        return [
+            axis.drawn(self.seed, self.points) if axis.values is None else np.repeat(next(meshes), samples)
+            for axis in self.axes
+        ]
 
     def scene(self, values: Sequence[Any]) -> dict[str, Any]:
         """The data of the scene with these numbers."""
@@ -96,78 +116,46 @@ class Plan:
             data = with_value(data, axis.path, value)
         return data
 
-    def solved(self, start: int, stop: int, rows: Rows | None = None) -> Rows:
-        """The points start <= k < stop, put into `rows` if given; they do not depend on the other points."""
-        rows = self.zeros(stop - start) if rows is None else rows
-        values = self.values(start, stop)
+    def solve(self, values: Values, rows: Rows | None = None) -> Rows:
+        """Results at points with these numbers, put into `rows` if given; they do not depend on the other points."""
+        rows = self.rows(len(values[0])) if rows is None else rows
         if self.links is not None:
-            self.links.solve(values, self.blocks[0].labels[0], rows)
-        for k in np.flatnonzero(rows["status"] == 0).tolist():
-            self._solve(rows, k, [column[k].item() for column in values])
-        self.derive(rows, values)
-        return rows
-
-    def derive(self, rows: Rows, values: list[NDArray[Any]]) -> None:
-        """Put the random numbers, and in batches the speeds, into `rows`; they follow from the stored results."""
-        gravity: Any = None if self.links is None else self.links.gravity
-        for axis, column in zip(self.axes, values, strict=True):
-            if axis.values is None:
-                rows[axis.name][:] = column
-            if self.links is not None and axis.path == ("gravity",):
-                gravity = column[:, np.newaxis]
-        if gravity is not None:
-            with np.errstate(invalid="ignore"):  # gravity of refused points
-                np.divide(np.sqrt(gravity), np.sqrt(rows["conical_height"]), out=rows["angular_speed"])
-
-    @property
-    def stored(self) -> list[str]:
-        """Names of the arrays that `derive` does not fill."""
-        derived = () if self.links is None else ("angular_speed",)
-        return [*(block.name for block in self.blocks if block.name not in derived), "status"]
-
-    def _solve(self, rows: Rows, k: int, values: list[Any]) -> None:
-        """Put the answers of the scene of one point into row k."""
-        found: dict[str, Any] = {}
-        try:
-            found, proved = answers(convert(self.scene(values), Scene), self.find)  # the questions check the scene
+            self.links.solve(values, self.outputs["conical_height"][0], rows)
+        left = np.flatnonzero(rows["status"] == 0)
+        for name in self.outputs if left.size else ():
+            rows[name][left] = math.nan if OUTPUTS[name].kind == "f8" else 0
+        fixed, built = None, None  # the system of the point before, and the varied numbers on which it depends
+        for k, *numbers in zip(left.tolist(), *(column[left].tolist() for column in values), strict=True):
+            try:
+                scene = convert(self.scene(numbers), Scene)  # the questions check the scene
+                given = [number for number, axis in zip(numbers, self.axes, strict=True) if axis.path[0] != "ask"]
+                if given == fixed:
+                    scene._made()["system"] = built
+                fixed, built = given, scene._built()
+                found, proved = answers(scene, self.find)
+            except (ValueError, OverflowError):
+                rows["status"][k] = REFUSED
+                continue
             rows["status"][k] = SUCCESS if proved else NOT_MET
-        except (ValueError, OverflowError):
-            rows["status"][k] = REFUSED
-        for block in self.blocks:
-            row = rows[block.name][k : k + 1].reshape(-1)
-            row[:] = math.nan if block.kind == "f8" else 0
-            numbers = np.ravel(found.get(block.name, []))[: row.size]
-            row[: numbers.size] = numbers
+            for name, labels in self.outputs.items():
+                result = OUTPUTS[name].of(found[OUTPUTS[name].question])
+                if labels:
+                    there = min(len(result), len(labels))
+                    rows[name][k, :there] = result[:there]
+                else:
+                    rows[name][k : k + 1] = result
+        return rows
 
 
 def answers(scene: Scene, find: Sequence[str]) -> tuple[dict[str, Any], bool]:
-    """The results of one scene, by the names of the blocks, and whether all are complete and within their tolerance."""
-    found: dict[str, Any] = {}
-    proved = True
-    if "modes" in find:
-        modes: Any = scene.modes()
-        if scene.is_rigged:
-            for turn, which in (("forward", modes.direction > 0), ("backward", modes.direction < 0)):
-                found |= {f"{turn}_{name}": np.abs(getattr(modes, name)[which]) for name in _SPEED}
-            found |= {"other_modes": modes.other_available, "modes_complete": modes.complete}
-        else:
-            found |= {name: getattr(modes, name) for name in _SPEED[:3]}
-        proved = modes.status == "success"
-    if "shapes" in find:
-        shapes: Any = scene.steady_shapes()
-        found |= {"shapes": len(shapes), "shapes_complete": shapes.complete}
-        found["half_waves"] = [s.half_waves for s in shapes]
-        for name, field in zip(_SHAPE, ("inclination", "inclination", "offset", "tension"), strict=True):
-            found[name] = [getattr(s, field)[-1 if name.startswith("top") else 0] for s in shapes]
-        found["shape_error_bound"] = [s.error_bound for s in shapes]
-        proved = proved and bool(shapes.complete)
-    if "response" in find:
-        moved = scene.response()
-        offset = np.atleast_2d(moved.offset)
-        numbers = [moved.angular_speed, offset[:, 0], np.abs(offset).max(axis=1), moved.support_force]
-        found |= dict(zip(_RESPONSE, numbers, strict=True)) | {"response_error_bound": moved.error_bound}
-        proved = proved and bool(np.isfinite(moved.error_bound).all())
-    return found, proved
+    """The answers to these questions of a scene, and whether all are complete and within their tolerance."""
+    found = {question: _ANSWERS[question](scene) for question in find}
+    proved = [
+        "modes" not in found or found["modes"].status == "success",
+        "shapes" not in found or found["shapes"].complete,
+        "response" not in found or np.isfinite(found["response"].error_bound).all(),
+    ]
+    return found, all(proved)
 
 
 def asked_of(scene: Scene, wanted: Sequence[str] | UnsetType, numbers: Numbers) -> tuple[str, ...]:
@@ -191,28 +179,25 @@ def asked_of(scene: Scene, wanted: Sequence[str] | UnsetType, numbers: Numbers) 
     return tuple(asked)
 
 
-def blocks_of(scene: Scene, largest: Scene, find: tuple[str, ...], max_shapes: int, bounds: bool) -> tuple[Block, ...]:
-    """The results of each point; `largest` is the scene of the point with the most modes."""
-    blocks: list[Block] = []
-    system = scene.system()
+def outputs_of(scene: Scene, largest: Scene, find: tuple[str, ...], max_shapes: int, bounds: bool) -> Labels:
+    """The outputs of a study; `largest` is the scene of the point with the most modes."""
+    kinds = ("", "rig", *["spinning"] * scene.system().has_momentum) if scene.is_rigged else ("", "other")
+    labels: dict[str, tuple[int, ...]] = {"": (), "shape": tuple(range(1, max_shapes + 1))}
     if "modes" in find:
-        labels = _modes_of(scene, largest)
-        names = list(_SPEED[: (4 if scene.is_rigged else 3) if bounds else 2])
-        turns = ["forward_", "backward_"] if system.has_momentum else ["forward_"]
-        for turn in turns if scene.is_rigged else [""]:
-            blocks += [Block(turn + name, "f8", "mode", labels) for name in names]
-        if scene.is_rigged:
-            blocks += [Block("other_modes", "i8"), Block("modes_complete", "?")]
-    if "shapes" in find:
-        labels = tuple(range(1, max_shapes + 1))
-        blocks += [Block("shapes", "i8"), Block("shapes_complete", "?"), Block("half_waves", "i8", "shape", labels)]
-        blocks += [Block(name, "f8", "shape", labels) for name in (*_SHAPE, *["shape_error_bound"] * bounds)]
+        labels["mode"] = _modes_of(scene, largest)
     if "response" in find:
         count = _speeds_of(scene.ask.response)
-        names = [*_RESPONSE, *["response_error_bound"] * bounds]
-        labels = tuple(range(1, count + 1))
-        blocks += [Block(name, "f8", "" if count == 1 else "speed", labels) for name in names]
-    return tuple(blocks)
+        labels["speed"] = tuple(range(1, count + 1)) if count > 1 else ()
+    return {
+        name: labels[output.along]
+        for name, output in OUTPUTS.items()
+        if output.question in find and output.only in kinds and (bounds or not name.endswith("error_bound"))
+    }
+
+
+def columns_of(name: str, labels: tuple[int, ...]) -> list[str]:
+    """Names of the columns of an output in a table."""
+    return [f"{name}_{label}" for label in labels] or [name]
 
 
 def _modes_of(scene: Scene, largest: Scene) -> tuple[int, ...]:

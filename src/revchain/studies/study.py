@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
@@ -14,13 +14,12 @@ from ..scenes import parse
 from ..scenes.system import Numbers
 from ..scenes.error import Problem, SceneError
 from ..scenes.positions import joined
-from ..scenes.scene import Scene, json_schema, load_scene
+from ..scenes.scene import Scene, _named, json_schema, load_scene
 from ..scenes.tables import Table, says
 from ..systems.numbers import file_path, integer, text
 from .axes import LAWS, MAX_POINTS, Axis, Samples, Vary, axis_of, with_value
-from .axes import Path as Steps
 from .batch import links_of
-from .plan import Plan, answers, asked_of, blocks_of
+from .plan import Plan, answers, asked_of, columns_of, outputs_of
 
 __all__ = ["Study", "load_study"]
 
@@ -124,16 +123,11 @@ class Study(Table, frozen=True):
     def _read(cls, data: Any, source: str, folder: Path, problems: list[Problem]) -> Self:
         """The study; one error for all problems, with those of its syntax."""
         scene = data.get("scene") if isinstance(data, dict) else None
-        try:
-            if isinstance(scene, str):
+        if isinstance(scene, str):
+            try:
                 data = {**data, "scene": load_scene(folder / scene).to_dict()}
-            elif isinstance(scene, dict):
-                data = {**data, "scene": Scene.from_dict(scene, source).to_dict()}
-        except ValueError as error:  # a SceneError, or that the name has a null byte
-            data = {**data, "scene": ""}  # so that the rest is read
-            if isinstance(error, SceneError) and not isinstance(scene, str):
-                problems += _within_scene(error.problems)
-            else:
+            except ValueError as error:  # a SceneError, or that the name has a null byte
+                data = {**data, "scene": ""}  # so that the rest is read
                 problems += [Problem(0, 0, "scene", sentence) for sentence in str(error).split("\n")]
         study = parse.convert(data, cls, source, problems)
         study._plan(source, problems)
@@ -194,7 +188,7 @@ class Study(Table, frozen=True):
         point = integer(place, "point", point)
         if not 0 <= point < plan.points:
             raise IndexError(f"{place}: there are {plan.points} points from 0 on, got {point}")
-        return Scene.from_dict(plan.scene([column.tolist()[0] for column in plan.values(point, point + 1)]))
+        return Scene.from_dict(plan.scene([column[point].item() for column in plan.values()]))
 
     def _refusal(self, point: int) -> str:
         """The reason why a point has no numbers."""
@@ -206,8 +200,8 @@ class Study(Table, frozen=True):
 
     def _plan(self, source: str, known: Sequence[Problem] = ()) -> Plan:
         """The checked plan of the study; one error for all problems, with those already known."""
-        numbers = Numbers(source)
-        numbers.problems += known
+        numbers, inside = Numbers(source), [one for one in known if one.key.startswith("scene.")]
+        numbers.problems += [one for one in known if one not in inside]
         scene, base, find = self.scene, dict[str, Any](), tuple[str, ...]()
         vary = self.vary if isinstance(self.vary, dict) else {}
         each = [axis_of(key, table, Scene, numbers.of(joined("vary", key))) for key, table in vary.items()]
@@ -218,8 +212,9 @@ class Study(Table, frozen=True):
             needs = "is missing: say how many points" if random else "is for random numbers, and none are varied"
             numbers.refuse("samples", needs)
         if isinstance(scene, Scene):
-            base, wrong = scene.to_dict(), scene._problems(source, [])
-            numbers.problems += _within_scene(wrong)
+            inside = [one._replace(key=one.key.removeprefix("scene.")) for one in inside]
+            base, wrong = scene.to_dict(), [_named(one, scene) for one in scene._problems(source, inside)]
+            numbers.problems += [one._replace(key=f"scene.{one.key}".rstrip(".")) for one in wrong]
             if not wrong:
                 find = asked_of(scene, self.find, numbers)
                 for axis in axes:
@@ -234,13 +229,13 @@ class Study(Table, frozen=True):
         shape = (*grids, samples) if random else tuple(grids)
         links = links_of(scene, axes) if batched else None
         bounds = links is None if isinstance(self.error_bounds, UnsetType) else self.error_bounds
-        blocks = blocks_of(scene, _largest(base, axes, source), find, self.max_shapes, bounds)
-        columns = {column for block in blocks for column in block.columns} | {"point", "status"}
-        columns |= {block.name for block in blocks} | {"mode", "shape", "speed", "sample"}
+        outputs = outputs_of(scene, _largest(base, axes, source), find, self.max_shapes, bounds)
+        columns = {"point", "status", "mode", "shape", "speed", "sample", *outputs}
+        columns.update(*(columns_of(*output) for output in outputs.items()))
         for axis in axes:
             if axis.name in columns:
                 numbers.of(joined("vary", axis.key)).refuse("name", f"{axis.name} is the name of a result")
-        plan = Plan(base, axes, shape, self.seed, find, blocks, links)
+        plan = Plan(base, axes, shape, self.seed, find, outputs, links)
         if plan.points > MAX_POINTS:
             numbers.refuse("vary", f"makes {plan.points:,} points; at most {MAX_POINTS:,}")
         numbers.done()
@@ -286,11 +281,6 @@ def study_schema() -> dict[str, Any]:
     return json_schema(Study, "revchain study")
 
 
-def _within_scene(problems: Iterable[Problem]) -> list[Problem]:
-    """The problems of a scene with the keys that they have in a study."""
-    return [one._replace(key=f"scene.{one.key}".rstrip(".")) for one in problems]
-
-
 def _refuse_twice(axes: tuple[Axis, ...], numbers: Numbers) -> None:
     """Note an error for a path that is given twice or lies inside another, and for a name given twice."""
     for k, axis in enumerate(axes):
@@ -298,7 +288,7 @@ def _refuse_twice(axes: tuple[Axis, ...], numbers: Numbers) -> None:
         for other in axes[:k]:
             if axis.name == other.name:
                 place.refuse("name", f"{axis.name} is the name of another, too")
-            shorter: Steps = min(axis.path, other.path, key=len)
+            shorter = min(axis.path, other.path, key=len)
             if axis.path[: len(shorter)] == other.path[: len(shorter)]:
                 place.refuse("", f"is varied by {joined('vary', other.key)}, too")
 

@@ -6,14 +6,14 @@ from __future__ import annotations
 import errno
 import json
 import os
-import time
 import warnings
-from collections.abc import Callable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
-from contextlib import ExitStack, contextmanager, suppress
-from itertools import islice
+from collections.abc import Callable, Generator, Iterator
+from concurrent.futures import Executor, Future, ThreadPoolExecutor, as_completed
+from contextlib import ExitStack, closing, contextmanager, suppress
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,17 +22,15 @@ from ..results.files import OutputError, hdf5_file, naming, written_aside
 from ..systems.extras import require
 from ..systems.numbers import count as checked_count
 from ..systems.numbers import file_path, shown
-from .axes import BLOCK
-from .plan import STATUS, Plan, Rows
+from .plan import OUTPUTS, STATUS, Plan, Rows, Values
 from .study import Study, load_study
 
 if TYPE_CHECKING:
     from xarray import Dataset
 
 _PLACE = "revchain.sweep"
-_SECONDS = 0.5  # of work in a chunk, or a hundredth of the time so far: this gives hundreds of files, not millions
-_IN_FLIGHT = 3  # chunks for each worker
-CHUNKS = "[0-9]*-[0-9]*.bin"
+BATCH, ONE_BY_ONE, MOST_CHUNKS = 65536, 100, 10_000  # points in a chunk of a batch, in another chunk; number of chunks
+CHUNKS = "[0-9]*-[0-9]*.npz"
 PACKAGES = {".csv": ["pyarrow.csv"], ".parquet": ["pyarrow.parquet"], ".nc": ["h5py", "h5netcdf"]}
 
 
@@ -62,7 +60,8 @@ def sweep(
     workers : int, optional
         Number of threads, or of workers of the executor; one for each processor if left out.
     chunk : int, optional
-        Number of points that are computed and stored together; about half a second of work if left out.
+        Number of points that are computed and stored together. If left out, 65,536 points of a batch, or up to 100
+        points that are solved one by one (a ten-thousandth of all points if that is more).
     progress : callable, optional
         Function that is called repeatedly with the number of finished points and the number of all points.
 
@@ -120,118 +119,57 @@ def sweep(
     workers = _processors() if workers is None else checked_count(_PLACE, "workers", workers)
     require("xarray", "sweep", _PLACE)
     if out is not None:
-        checked_ending(out)
+        check_ending(out)
     plan = study._plan("study")
+    if chunk is None:
+        few = max(min(ONE_BY_ONE, plan.points // (4 * workers)), plan.points // MOST_CHUNKS, 1)
+        chunk = few if plan.links is None else BATCH
+    values, rows, folder = plan.values(), plan.rows(plan.points), None
     with ExitStack() as stack:
-        run = _Run(plan, progress)
         if out is not None:
             output = Path(os.path.realpath(out))
             stack.enter_context(naming(output))
-            run.folder = stack.enter_context(_folder(output, _head(study)))
-            run.read_chunks()
+            folder = stack.enter_context(_folder(output, study))
+            _read_chunks(folder, rows)
         pool = executor or stack.enter_context(ThreadPoolExecutor(workers, thread_name_prefix="revchain-sweep"))
-        run.compute(pool, workers, chunk, in_place=executor is None)
-        found = dataset(study, plan, run.rows)
-        if run.folder is not None:
+        done = int(np.count_nonzero(rows["status"]))
+        computed = closing(_computed(plan, values, rows, chunk, pool, executor is None, folder))
+        for points in chain([0], stack.enter_context(computed)):
+            done += points
+            if progress is not None:
+                progress(done, plan.points)
+        found = dataset(study, plan, values, rows)
+        if folder is not None:
             with written_aside(output) as [aside]:
                 write(found, aside)
-            _remove(run.folder)
+            _remove(folder)
     return found
 
 
-class _Run:
-    """The computation of the missing points, in chunks."""
-
-    def __init__(self, plan: Plan, told: Callable[[int, int], None] | None) -> None:
-        self.plan = plan
-        self.rows = plan.zeros(plan.points)
-        self.folder: Path | None = None
-        self.done = 0
-        self._told = told
-        self._began = time.perf_counter()
-
-    def read_chunks(self) -> None:
-        """Read the finished chunks of an earlier run; those that cannot be read are removed."""
-        assert self.folder is not None
-        for path in sorted(self.folder.glob(CHUNKS)):
-            try:
-                self._read(path, *map(int, path.stem.split("-")))
-            except (ValueError, TypeError, OSError) as error:
-                reason = f"{path} cannot be read, and its points are computed again: {error}"
-                warnings.warn(reason.replace("\n", " "), stacklevel=3)
-                path.unlink()
-        self.done = int(np.count_nonzero(self.rows["status"]))
-
-    def _read(self, path: Path, start: int, stop: int) -> None:
-        """Read the numbers of a chunk, which follow one another as in memory."""
-        part = {name: array[start:stop] for name, array in self.rows.items()}
-        size = sum(part[name].nbytes for name in self.plan.stored)
-        if not 0 <= start < stop <= self.plan.points or path.stat().st_size != size:
-            raise ValueError("it has another size")
-        with open(path, "rb") as file:
-            for name in self.plan.stored:
-                file.readinto(part[name].data)
-        if not part["status"].all():
-            part["status"][:] = 0
-            raise ValueError("a point has no status")
-        self.plan.derive(part, self.plan.values(start, stop))
-
-    def compute(self, pool: Executor, workers: int, fixed: int | None, in_place: bool) -> None:
-        """Compute all missing chunks, a few at a time, so that few finished ones wait to be stored."""
-        pending: set[Future[tuple[int, Rows, float]]] = set()
-        self._size = fixed or (BLOCK if self.plan.links is not None else 16)
-        chunks = self._chunks()
-        self._tell()
-        try:
-            while True:
-                for start, stop in islice(chunks, _IN_FLIGHT * workers - len(pending)):
-                    rows = {name: array[start:stop] for name, array in self.rows.items()} if in_place else None
-                    pending.add(pool.submit(_solved, self.plan, start, stop, rows))
-                if not pending:
-                    return
-                ready, pending = wait(pending, return_when=FIRST_COMPLETED)
-                for future in ready:
-                    start, found, seconds = future.result()
-                    count = self._take(start, found)
-                    if fixed is None and self.plan.links is None:
-                        wanted = max(_SECONDS, (time.perf_counter() - self._began) / 100)
-                        self._size = max(int(min(wanted / max(seconds, 1e-9) * count, 4 * self._size, BLOCK)), 1)
-        finally:
-            for future in pending:
-                future.cancel()
-
-    def _chunks(self) -> Iterator[tuple[int, int]]:
-        """The ends of chunks of points without results."""
-        ends = np.flatnonzero(np.diff(np.concatenate([[True], self.rows["status"] != 0, [True]])))
-        for start, stop in ends.reshape(-1, 2).tolist():
-            while start < stop:
-                end = min(start + self._size, stop)
-                yield start, end
-                start = end
-
-    def _take(self, start: int, found: Rows) -> int:
-        """Store the results of a chunk; return the number of its points."""
-        stop = start + len(found["status"])
-        if self.folder is not None:
-            with written_aside(self.folder / f"{start:013}-{stop:013}.bin") as [aside], open(aside, "wb") as file:
-                for name in self.plan.stored:
-                    file.write(found[name].data)
-        for name, array in found.items():
-            if array.base is not self.rows[name]:
-                self.rows[name][start:stop] = array
-        self.done += stop - start
-        self._tell()
-        return stop - start
-
-    def _tell(self) -> None:
-        if self._told is not None:
-            self._told(self.done, self.plan.points)
-
-
-def _solved(plan: Plan, start: int, stop: int, rows: Rows | None) -> tuple[int, Rows, float]:
-    """The work of a worker: first point, results and time in seconds of a chunk."""
-    began = time.perf_counter()
-    return start, plan.solved(start, stop, rows), time.perf_counter() - began
+def _computed(
+    plan: Plan, values: Values, rows: Rows, chunk: int, pool: Executor, in_place: bool, folder: Path | None
+) -> Generator[int, None, None]:
+    """Compute the points without results and store each chunk in the folder; yield the number of its points."""
+    ends = np.flatnonzero(np.diff(rows["status"] == 0, prepend=False, append=False)).reshape(-1, 2)
+    pending: dict[Future[Rows], int] = {}
+    try:
+        for first, last in ends.tolist():
+            for start in range(first, last, chunk):
+                part = slice(start, min(start + chunk, last))
+                to = {name: array[part] for name, array in rows.items()} if in_place else None
+                pending[pool.submit(plan.solve, [column[part] for column in values], to)] = start
+        for future in as_completed(pending):
+            start, found = pending.pop(future), future.result()
+            stop = start + len(found["status"])
+            for name, array in found.items() if not in_place else ():
+                rows[name][start:stop] = array
+            if folder is not None:
+                with written_aside(folder / f"{start:013}-{stop:013}.npz") as [aside]:
+                    np.savez(aside, **found)  # type: ignore[arg-type]
+            yield stop - start
+    finally:
+        for future in pending:
+            future.cancel()
 
 
 def _processors() -> int:
@@ -241,29 +179,9 @@ def _processors() -> int:
 # ---- files
 
 
-def checked_ending(path: str | os.PathLike[str]) -> str:
-    """The ending of an output; a missing package that writes it is an error at once."""
-    ending = Path(file_path(_PLACE, "the output", path)).suffix.lower()
-    if ending not in PACKAGES:
-        raise ValueError(f"{os.fspath(path)} must end in .csv, .parquet or .nc")
-    for module in PACKAGES[ending]:
-        require(module, "sweep", f"a {ending} file")
-    return ending
-
-
-def _head(study: Study) -> dict[str, Any]:
-    """The data on which the results depend."""
-    from .. import __version__
-
-    texts = ("title", "description")
-    data = {key: value for key, value in study.to_dict().items() if key not in texts}
-    scene = {key: value for key, value in data["scene"].items() if key not in texts}
-    return {"revchain": __version__, "numpy": np.__version__, "study": {**data, "scene": scene}}
-
-
 @contextmanager
-def _folder(output: Path, head: dict[str, Any]) -> Iterator[Path]:
-    """Yield the locked folder ``OUT.partial`` with the finished chunks of this study; remove it at the end if empty."""
+def _folder(output: Path, study: Study) -> Iterator[Path]:
+    """Yield the locked folder ``OUT.partial`` with the finished chunks of this study."""
     filelock = require("filelock", "sweep", "revchain.sweep with out")
     folder = output.with_name(output.name + ".partial")
 
@@ -274,30 +192,42 @@ def _folder(output: Path, head: dict[str, Any]) -> Iterator[Path]:
         raise refused(errno.EISDIR, "is no file")
     try:
         folder.mkdir(parents=True, exist_ok=True)
-    except FileExistsError:
-        raise refused(errno.EEXIST, f"{folder} is no folder") from None
-    known = folder / "study.json"
-    if not known.exists() and any(path.name != "lock" for path in folder.iterdir()):
-        raise refused(errno.EEXIST, f"{folder} holds other files; remove it or write elsewhere")
-    try:
-        lock = filelock.FileLock(folder / "lock", timeout=0).acquire()
-    except filelock.Timeout:
-        raise refused(errno.EAGAIN, "another run is writing it") from None
-    with lock:
-        is_ours = False
-        try:
-            if not known.exists():
-                with written_aside(known) as [aside]:
-                    aside.write_text(json.dumps(head), encoding="utf-8")
-            with suppress(ValueError, RecursionError):
-                is_ours = json.loads(known.read_text(encoding="utf-8")) == json.loads(json.dumps(head))
-            if not is_ours:
+        with filelock.FileLock(folder / "lock", timeout=0):
+            known, head = folder / "study.json", _head(study)
+            if any(folder.glob(CHUNKS)) and not (known.is_file() and known.read_bytes() == head):
                 reason = f"{folder} holds points of another study, or of another version; remove it or write elsewhere"
                 raise refused(errno.EEXIST, reason)
+            with written_aside(known) as [aside]:
+                aside.write_bytes(head)
             yield folder
-        finally:
-            if known.exists() and is_ours and not any(folder.glob(CHUNKS)):
-                _remove(folder)
+    except FileExistsError:
+        raise refused(errno.EEXIST, f"{folder} is no folder") from None
+    except filelock.Timeout:
+        raise refused(errno.EAGAIN, "another run is writing it") from None
+
+
+def _head(study: Study) -> bytes:
+    """The data on which the results depend."""
+    from .. import __version__
+
+    texts = ("title", "description")
+    data = {key: value for key, value in study.to_dict().items() if key not in texts}
+    scene = {key: value for key, value in data["scene"].items() if key not in texts}
+    return json.dumps({"revchain": __version__, "numpy": np.__version__, "study": {**data, "scene": scene}}).encode()
+
+
+def _read_chunks(folder: Path, rows: Rows) -> None:
+    """Read the finished chunks of an earlier run; those that cannot be read are removed."""
+    for path in sorted(folder.glob(CHUNKS)):
+        try:
+            start, stop = map(int, path.stem.split("-"))
+            with open(path, "rb") as file, np.load(file) as found:
+                for name, array in rows.items():  # the status is the last one
+                    array[start:stop] = found[name]
+        except (ValueError, KeyError, EOFError, OSError, BadZipFile) as error:
+            reason = f"{path} cannot be read, and its points are computed again: {error}"
+            warnings.warn(reason.replace("\n", " "), stacklevel=3)
+            path.unlink()
 
 
 def _remove(folder: Path) -> None:
@@ -310,6 +240,15 @@ def _remove(folder: Path) -> None:
             warnings.warn(f"{folder} stays: it holds other files, such as {others[0]}", stacklevel=3)
         else:
             folder.rmdir()
+
+
+def check_ending(path: str | os.PathLike[str]) -> None:
+    """Raise an error if the ending of an output is unknown, or if a package that writes it is missing."""
+    ending = Path(file_path(_PLACE, "the output", path)).suffix.lower()
+    if ending not in PACKAGES:
+        raise ValueError(f"{os.fspath(path)} must end in .csv, .parquet or .nc")
+    for module in PACKAGES[ending]:
+        require(module, "sweep", f"a {ending} file")
 
 
 def write(found: Dataset, path: Path) -> None:
@@ -331,29 +270,28 @@ def write(found: Dataset, path: Path) -> None:
 # ---- labelled arrays
 
 
-def dataset(study: Study, plan: Plan, rows: Rows) -> Dataset:
+def dataset(study: Study, plan: Plan, values: Values, rows: Rows) -> Dataset:
     """The results as an xarray data set."""
-    random = [axis for axis in plan.axes if axis.values is None]
-    grids = [axis for axis in plan.axes if axis.values is not None]
-    points = [axis.name for axis in grids] + ["sample"] * bool(random)
-    coordinates: dict[str, Any] = {axis.name: (axis.name, axis.values, _about(axis.unit, axis.key)) for axis in grids}
+    coordinates: dict[str, Any] = {}
     data: dict[str, Any] = {}
-    for axis in random:
-        data[axis.name] = points, rows[axis.name].reshape(plan.shape), _about(axis.unit, axis.key)
-    for block in plan.blocks:
-        dimensions = [*points, block.along] if block.along else points
-        data[block.name] = dimensions, rows[block.name].reshape(*plan.shape, *block.each), _about(block.unit)
-        if block.along:
-            coordinates[block.along] = block.along, np.array(block.labels)
+    grids = [axis.name for axis in plan.axes if axis.values is not None]
+    points = [*grids, *["sample"] * (len(grids) < len(plan.axes))]
+    for axis, column in zip(plan.axes, values, strict=True):
+        about = {"units": axis.unit, "path": axis.key} if axis.unit else {"path": axis.key}
+        if axis.values is None:
+            data[axis.name] = points, column.reshape(plan.shape), about
+        else:
+            coordinates[axis.name] = axis.name, axis.values, about
+    for name, labels in plan.outputs.items():
+        along, unit = [OUTPUTS[name].along] * bool(labels), OUTPUTS[name].unit
+        array = rows[name].reshape(*plan.shape, *[len(labels)] * len(along))
+        data[name] = [*points, *along], array, {"units": unit} if unit else {}
+        coordinates |= {dimension: (dimension, np.array(labels)) for dimension in along}
     flags = {"flag_values": np.arange(1, 4, dtype=np.int8), "flag_meanings": " ".join(STATUS)}
     data["status"] = points, rows["status"].reshape(plan.shape), flags
     about = {"title": study.title, "study": json.dumps(study.to_dict())}
     found: Dataset = require("xarray", "sweep", _PLACE).Dataset(data, coordinates, about)
     return found
-
-
-def _about(unit: str, path: str = "") -> dict[str, str]:
-    return {name: text for name, text in (("units", unit), ("path", path)) if text}
 
 
 def columns(found: Dataset) -> dict[str, NDArray[Any]]:

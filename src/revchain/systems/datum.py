@@ -18,6 +18,8 @@ from .held import Held
 from .numbers import Floats, shown
 from .rig import Rig
 
+Path = tuple[str | int, ...]
+_PATH = re.compile(r"[a-z_]+(\[\d{1,9}\])?(\.[a-z_]+(\[\d{1,9}\])?)*")
 _LENGTHS = ("length", "centroid", "radius_of_gyration", "length_in_proportion")
 
 
@@ -69,11 +71,18 @@ class Datum:
         return self.floor is None or self.floor < self.present < math.inf
 
 
+def steps(path: object) -> Path:
+    """The names and indices of a path into a system or a scene; empty if it is no path."""
+    if not isinstance(path, str) or _PATH.fullmatch(path) is None:
+        return ()
+    return tuple(int(index) if index else name for name, index in re.findall(r"([a-z_]+)|\[(\d+)\]", path))
+
+
 def read(place: str, system: Any, path: Any, gravity: float) -> Datum:
     """The datum of a path; for an unknown path a ValueError that lists the known ones."""
     name, link = path, None
-    if isinstance(path, str) and (found := re.fullmatch(r"(links|flywheels|displaced)\[(\d+)\]\.(\w+)", path)):
-        name, link = f"{found[1]}[k].{found[3]}", int(found[2])
+    if len(parts := steps(path)) == 3 and isinstance(parts[1], int):
+        name, link = f"{parts[0]}[k].{parts[2]}", parts[1]
     heavy, other = ("mass", "weight") if system.by_mass else ("weight", "mass")
     known = _paths(system, heavy)
     if not isinstance(name, str) or name not in known:
