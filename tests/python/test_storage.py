@@ -174,8 +174,9 @@ def test_every_kind_of_result(tmp_path, name, ending):
     assert all(getattr(result, field) is value and not value.flags.writeable for field, value in arrays.items())
     result.save(path)
     twins = [pickle.loads(pickle.dumps(result, protocol)) for protocol in (0, 2, pickle.HIGHEST_PROTOCOL)]
-    rc.load(path).save(path)  # over itself
-    for twin in (rc.load(str(path)), *twins):
+    first = rc.load(path)
+    first.save(path)  # over itself
+    for twin in (first, rc.load(str(path)), *twins):
         assert type(twin) is type(result) and twin == result and copy.copy(twin) is copy.deepcopy(twin) is twin
         assert repr(twin) == repr(result) and twin._repr_html_() == result._repr_html_()
         assert json.dumps(twin.to_dict()) == json.dumps(result.to_dict())
