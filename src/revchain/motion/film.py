@@ -3,7 +3,10 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass, field, replace
+from functools import cache
+from importlib.resources import files
 from typing import Any
 
 import numpy as np
@@ -13,6 +16,18 @@ from ..systems.numbers import Floats, Whole
 
 Complex = NDArray[np.complex128]
 GAP = 1.15  # room of a figure over its width
+
+
+@cache
+def forms() -> dict[str, Any]:
+    """The table of forms of bodies, which 3D models and the live page share: words, colours, profiles and pieces."""
+    found: dict[str, Any] = json.loads(files("revchain").joinpath("motion/viewer/forms.json").read_text(encoding="utf-8"))
+    return found
+
+
+def form_of(name: str) -> str:
+    """Return the form of a link whose name has one of the words of the table; empty for a bar with a ball."""
+    return next((form for word, form in forms()["words"].items() if word in name.lower().split()), "")
 
 
 @dataclass(frozen=True)
@@ -58,6 +73,8 @@ class Bodies:
     rod: Floats = field(default_factory=lambda: np.zeros(0))  # half a uniform rod of that inertia, over the link; or 0
     wheel: Floats = field(default_factory=lambda: np.zeros(0))  # 1 or -1 where a flywheel has momentum
     floats: NDArray[np.bool_] = field(default_factory=lambda: np.zeros(0, bool))
+    gyration: Floats = field(default_factory=lambda: np.zeros(0))  # radius, m
+    form: tuple[str, ...] = ()  # a key of the table of forms, or empty
 
 
 @dataclass(frozen=True)
@@ -89,6 +106,7 @@ class Film:
     time_scale: float  # seconds of motion in one second of film
     names: tuple[str, ...]  # of links
     stout: NDArray[np.bool_]  # links that stand
+    rings: NDArray[np.bool_]  # links of a chain of many equal rods
     shows_pins: bool = False
     is_held: bool = False  # at both ends
     chart: Chart | None = None

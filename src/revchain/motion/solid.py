@@ -14,21 +14,18 @@ from numpy.typing import NDArray
 
 from ..plots.style import PALETTE
 from ..systems.numbers import Floats, Whole
-from .film import Complex, Figure, Film, pace, side_by_side
+from .film import Complex, Figure, Film, forms, pace, side_by_side
 
 MOST_LINKS = 400  # of a longer chain only some of the pins are drawn
 FEWEST_KEYS, MOST_PLACES = 120, 60_000  # of links in time, about 30 bytes each
 SIDES, ROWS = 20, 8  # of a cylinder and a ball
 THIN, THICK, BALL = 0.006, 0.014, 0.035  # radii, over the height or the width of the whole
 BALL_OF_LINK = 0.28  # largest radius, over the mean link
-DISC = 0.6  # radius of a flywheel, over the reach
 GREYS = {
     "body": "595959",
     "floating": "f0f0f0",
     "support": "1a1a1a",
     "axis": "b3b3b3",
-    "forward": PALETTE[0],
-    "backward": PALETTE[3],
 }
 COMPONENTS = {"f": 5126, "u": 5123}  # numbers of glTF for 32-bit floats and unsigned 16-bit integers
 VERTICES, ELEMENTS = 34962, 34963  # what glTF uses an array for
@@ -105,8 +102,8 @@ class _Solid:
         return self._once(colour, make)
 
     def _form(self, kind: str) -> dict[str, Any]:
-        """Return the accessors of a cylinder or a ball of radius 1 and height 1."""
-        points, normals, faces = _cylinder() if kind == "cylinder" else _ball()
+        """Return the accessors of a form of radius or width 1."""
+        points, normals, faces = FORMS[kind]() if kind in FORMS else _lathed(forms()["profiles"][kind])
         attributes = {
             "POSITION": self._once((kind, 0), lambda: self._array(points, "VEC3", ends=True, target=VERTICES)),
             "NORMAL": self._once((kind, 1), lambda: self._array(normals, "VEC3", target=VERTICES)),
@@ -115,7 +112,7 @@ class _Solid:
         return {"attributes": attributes, "indices": indices}
 
     def _mesh(self, kind: str, colour: str) -> int:
-        """Return the number of the mesh of a cylinder or a ball of one colour."""
+        """Return the number of the mesh of a form in one colour."""
 
         def make() -> int:
             return self._put("meshes", name=kind, primitives=[self._form(kind) | {"material": self._material(colour)}])
@@ -156,6 +153,9 @@ class _Solid:
         colour = PALETTE[film.colours[nth] % len(PALETTE)]
         for k in range(points.shape[1] - 1):
             name = film.names[k] if film.names else f"segment {k}"
+            if film.rings[k]:
+                self._ring(name, turning, points[:, k + 1], points[:, k], colour, k % 2)
+                continue
             radius = (THICK if film.stout[k] else THIN) * self.tall
             self._bar(name, turning, points[:, k + 1], points[:, k], radius, colour)
         self._bodies(turning, points, colour)
@@ -200,25 +200,54 @@ class _Solid:
         node = self._node(name, parent, mesh=self._mesh("ball", colour))
         self._placed(node, at, None, np.full((1, 3), radius))
 
+    def _ring(self, name: str, parent: int, upper: Floats, lower: Floats, colour: str, odd: int) -> None:
+        along = upper - lower
+        long = np.maximum(np.linalg.norm(along, axis=1), 1e-9 * self.tall)
+        wide = np.maximum(0.55 * long, 2.4 * THIN * self.tall)
+        turn = _turned_to(along / long[:, None])
+        if odd:
+            turn = _after(turn, _by_angles(0.0, np.pi / 2, 0.0))
+        node = self._node(name, parent, mesh=self._mesh("ring", colour))
+        self._placed(node, (upper + lower) / 2, turn, np.column_stack([wide, 1.15 * long, wide]))
+
     def _bodies(self, parent: int, points: Floats, colour: str) -> None:
         bodies, film = self.film.bodies, self.film
-        ball = self.tall * min(BALL, max(BALL_OF_LINK / (points.shape[1] - 1), 1.5 * THIN))
-        for link, along, size, rod, wheel, floats in zip(
-            bodies.link, bodies.along, bodies.size, bodies.rod, bodies.wheel, bodies.floats, strict=True
+        heavy = float(np.sum(bodies.size**3))  # the heaviest as one, the others as parts of it
+        ball = self.tall * min(BALL, max(BALL_OF_LINK / max(heavy, 1.0), 1.5 * THIN))
+        for k, (link, along, size, rod, wheel, floats) in enumerate(
+            zip(bodies.link, bodies.along, bodies.size, bodies.rod, bodies.wheel, bodies.floats, strict=True)
         ):
             of = film.names[link] if film.names else "cord"
             upper, step = points[:, link + 1], points[:, link] - points[:, link + 1]
             middle = upper + along * step
-            grey = GREYS["floating" if floats else "body"]
-            self._ball(f"body of {of}", parent, middle, ball * max(size, 0.3), grey)
+            if bodies.form[k]:
+                self._shaped(of, parent, bodies.form[k], upper, step, along, float(bodies.gyration[k]), wheel < 0)
+                continue
+            if film.rings.size > link and film.rings[link]:
+                continue
             if rod:
                 self._bar(
                     f"rod of {of}", parent, middle - rod * step, middle + rod * step, 1.6 * THIN * self.tall, colour
                 )
-            if wheel:
-                half = 0.6 * THIN * self.tall * step / np.linalg.norm(step, axis=1)[:, None]
-                disc = GREYS["forward" if wheel > 0 else "backward"]
-                self._bar(f"flywheel of {of}", parent, middle - half, middle + half, DISC * film.reach, disc)
+            grey = GREYS["floating" if floats else "body"]
+            self._ball(f"body of {of}", parent, middle, ball * max(size, 0.3), grey)
+
+    def _shaped(
+        self, of: str, parent: int, form: str, upper: Floats, step: Floats, along: float, gyration: float, back: bool
+    ) -> None:
+        """Add the pieces of a form of the table, in axes of the link whose y points from its upper pin along it."""
+        table = forms()
+        body, long = table["bodies"][form], np.maximum(np.linalg.norm(step, axis=1), 1e-9 * self.tall)
+        units = {"tall": self.tall, "gyration": gyration, "length": long[0], "rim": max(np.sqrt(2) * gyration, 0.04 * self.tall)}
+        unit, turn = units[body["unit"]], _turned_to(step / long[:, None])
+        start = 0.0 if body.get("from") == "pin" else along * long
+        for kind, shade, (x, y, z), scale, *tilt in body["pieces"]:
+            own = ("backward" if back else "forward") if shade == "spin" else shade
+            mesh = self._mesh("cylinder" if kind == "bar" else kind, table["colours"][own][1:])
+            node = self._node(f"{form} of {of}", parent, mesh=mesh)
+            inside = np.column_stack([np.full_like(long, x * unit), start + y * unit, np.full_like(long, z * unit)])
+            at = upper + _rotated(turn, inside)
+            self._placed(node, at, _after(turn, _by_angles(*tilt[0])) if tilt else turn, np.array([scale]) * unit)
 
     def finished(self) -> bytes:
         """Return the whole file: a header and two chunks, each of whole words."""
@@ -269,6 +298,76 @@ def _turned_to(way: Floats) -> Floats:
     return np.asarray(found * flips[:, None])  # the shorter way from frame to frame
 
 
+def _after(turn: Floats, first: Floats) -> Floats:
+    """Quaternions (x, y, z, w) of the rotation `first` followed by `turn`."""
+    (ax, ay, az, aw), (bx, by, bz, bw) = turn.T, first
+    return np.column_stack(
+        [
+            aw * bx + ax * bw + ay * bz - az * by,
+            aw * by - ax * bz + ay * bw + az * bx,
+            aw * bz + ax * by - ay * bx + az * bw,
+            aw * bw - ax * bx - ay * by - az * bz,
+        ]
+    )
+
+
+def _by_angles(x: float, y: float, z: float) -> Floats:
+    """The quaternion of rotations about z, then y, then x, as three.js orders them."""
+    one = np.array([[0.0, 0.0, 0.0, 1.0]])
+    for axis, angle in enumerate((x, y, z)):
+        turn = np.zeros(4)
+        turn[axis], turn[3] = np.sin(angle / 2), np.cos(angle / 2)
+        one = _after(one, turn)
+    return np.asarray(one[0])
+
+
+def _rotated(turn: Floats, vectors: Floats) -> Floats:
+    """Vectors rotated by quaternions, row by row."""
+    axis, real = turn[:, :3], turn[:, 3:]
+    return np.asarray(vectors + 2 * np.cross(axis, np.cross(axis, vectors) + real * vectors))
+
+
+def _lathed(points: list[list[float]]) -> Surface:
+    """The surface of revolution of a line of points (radius, height), which goes up outside."""
+    upper, lower = np.array(points[::-1], float)[:-1], np.array(points[::-1], float)[1:]
+    way = upper - lower
+    normal = np.column_stack([way[:, 1], -way[:, 0]]) / np.linalg.norm(way, axis=1)[:, None]
+    above, below = normal.copy(), normal.copy()
+    smooth = (normal[1:] * normal[:-1]).sum(axis=1) > 0.5  # the others are edges
+    above[1:][smooth] += normal[:-1][smooth]
+    below[:-1][smooth] += normal[1:][smooth]
+    above, below = (each / np.linalg.norm(each, axis=1)[:, None] for each in (above, below))
+    rows = np.stack([np.hstack([upper, above]), np.hstack([lower, below])], axis=1).reshape(-1, 4)
+    return _revolved(rows, np.arange(0, len(rows), 2))
+
+
+def _torus(thick: float, radius: float = 1.0) -> Surface:
+    """A torus about the y axis."""
+    angle = np.linspace(np.pi / 2, np.pi / 2 - 2 * np.pi, 9)
+    out, up = np.cos(angle), np.sin(angle)
+    return _revolved(np.column_stack([radius + thick * out, thick * up, out, up]), np.arange(8))
+
+
+def _upright(surface: Surface) -> Surface:
+    """A surface about the y axis turned to the z axis."""
+    points, normals, faces = surface
+    return points[:, [0, 2, 1]], normals[:, [0, 2, 1]], faces.reshape(-1, 3)[:, [0, 2, 1]].ravel()
+
+
+def _box() -> Surface:
+    """A box of width 1."""
+    points, normals = [], []
+    for axis in range(3):
+        for side in (-1.0, 1.0):
+            for corner in ((-1, -1), (1, -1), (1, 1), (-1, 1)):
+                one = np.zeros(3)
+                one[axis], one[(axis + 1) % 3], one[(axis + 2) % 3] = side, corner[0] * side, corner[1]
+                points.append(one / 2)
+                normals.append(side * np.eye(3)[axis])
+    faces = np.concatenate([[[k, k + 1, k + 2], [k, k + 2, k + 3]] for k in range(0, 24, 4)])
+    return np.array(points, np.float32), np.array(normals, np.float32), faces.astype(np.uint16).ravel()
+
+
 def _cylinder() -> Surface:
     """Return the surface of a closed cylinder of radius 1 and height 1."""
     rim = [[0, 0.5, 0, 1], [1, 0.5, 0, 1], [1, 0.5, 1, 0], [1, -0.5, 1, 0], [1, -0.5, 0, -1], [0, -0.5, 0, -1]]
@@ -298,3 +397,12 @@ def _revolved(profile: Floats, bands: Whole) -> Surface:
     radius = profile[:, 0].repeat(n)
     faces = np.concatenate([upper[radius[at] > 1e-6], lower[radius[at + n] > 1e-6]])  # on the axis they have no area
     return points, normals, faces.astype(np.uint16).ravel()
+
+
+FORMS: dict[str, Callable[[], Surface]] = {
+    "cylinder": _cylinder,
+    "ball": _ball,
+    "box": _box,
+    "rim": lambda: _torus(0.05),
+    "ring": lambda: _upright(_torus(0.15, 0.5)),
+}

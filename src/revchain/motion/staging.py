@@ -21,13 +21,14 @@ from ..results.motions import Response, Swing
 from ..results.shapes import SteadyShape, SteadyShapes
 from ..results.sheet import digits
 from ..systems.numbers import Floats, listed, one_positive, place_of
-from .film import Bodies, Chart, Complex, Figure, Film
+from .film import Bodies, Chart, Complex, Figure, Film, form_of
 
 TURN = 2 * math.pi
 CORD_POINTS = 101
 LONGEST, FOR_A_SWEEP = 10.0, 12.0  # seconds of film, unless the caller chooses
 SLOWEST_TURN, FASTEST_TURN = 4.0, 0.8  # seconds of film
 MOST_FRAMES = 20_000
+FEWEST_RINGS = 8
 MOST_STAGES = 150  # points of a branch whose shapes are computed
 Turning = tuple[str, Any, Floats, float, float]  # label, offsets, heights, speed, and what offsets are multiplied by
 
@@ -328,6 +329,7 @@ def _film(
         time_scale=time_scale,
         names=names,
         stout=np.broadcast_to(system._stands, figures[0].offset.shape[1] - 1),
+        rings=np.broadcast_to(_rings(system, base), figures[0].offset.shape[1] - 1),
         shows_pins=few,
         is_held=system._is_held,
         chart=chart,
@@ -339,8 +341,8 @@ def _bodies(system: Any, base: Any) -> Bodies:
     if system._is_cord:
         if not base._compiled.tip_weight:
             return Bodies()
-        one = np.ones(1)
-        return Bodies(np.zeros(1, int), one, one, np.zeros(1), np.zeros(1), np.zeros(1, bool))
+        one, none = np.ones(1), np.zeros(1)
+        return Bodies(np.zeros(1, int), one, one, none, none, np.zeros(1, bool), none, ("",))
     weight = np.broadcast_to(base._compiled.weight, base.size)
     momentum = system._momentum(1.0)
     link = np.flatnonzero((weight > 0) | (momentum != 0))
@@ -351,5 +353,16 @@ def _bodies(system: Any, base: Any) -> Bodies:
         "rod": np.where(rod < 1, rod, 0.0),  # what is longer is no rod
         "wheel": np.sign(momentum),
         "floats": floating(system),
+        "gyration": base.radius_of_gyration,
     }
-    return Bodies(link, **{name: np.asarray(array)[link] for name, array in arrays.items()})
+    names = base.names or ("",) * base.size
+    form = tuple(form_of(names[k]) or ("wheel" if momentum[k] else "") for k in link.tolist())
+    return Bodies(link, **{name: np.asarray(array)[link] for name, array in arrays.items()}, form=form)
+
+
+def _rings(system: Any, base: Any) -> Any:
+    """Whether each link is one of many equal rods in a row, which are drawn as the rings of a chain."""
+    if system._is_cord:
+        return False
+    rod = (base.centroid == base.length / 2) & np.isclose(base.radius_of_gyration, base.length / math.sqrt(12), rtol=1e-9)
+    return rod & (np.count_nonzero(rod) >= FEWEST_RINGS) & ~system._stands & ~(system._momentum(1.0) != 0)
