@@ -34,24 +34,24 @@ void bind_diagrams(py::module_& module) {
     module.def("transferred_to_axis", &revchain::transferred_to_axis, "chain"_a, "shape"_a);
 
     py::class_<Polygon>(module, "FunicularPolygon", "Weights on a thread between two supports.")
-        .def_property_readonly("place", copied(&Polygon::place))
+        .def_property_readonly("position", copied(&Polygon::position))
         .def_property_readonly("height", copied(&Polygon::height))
         .def_property_readonly("rise", copied(&Polygon::rise))
         .def_property_readonly("tension", copied(&Polygon::tension))
         .def_readonly("horizontal_tension", &Polygon::horizontal_tension);
     module.def(
         "funicular_polygon",
-        [](const Array& weight, const Array& place, double horizontal_tension, double first, double last) {
-            return revchain::funicular_polygon(vector(weight), vector(place), horizontal_tension, first, last);
+        [](const Array& weight, const Array& position, double horizontal_tension, double first, double last) {
+            return revchain::funicular_polygon(vector(weight), vector(position), horizontal_tension, first, last);
         },
-        "weight"_a, "place"_a, "horizontal_tension"_a, "first_height"_a, "last_height"_a);
+        "weight"_a, "position"_a, "horizontal_tension"_a, "first_height"_a, "last_height"_a);
     module.def(
         "transverse_modes",
-        [](const Array& weight, const Array& place, double tension) {
-            const auto found = revchain::transverse_modes(vector(weight), vector(place), tension);
+        [](const Array& weight, const Array& position, double tension) {
+            const auto found = revchain::transverse_modes(vector(weight), vector(position), tension);
             return py::make_tuple(to_numpy(found.conical_height), to_numpy(found.error_bound), to_numpy(found.shape));
         },
-        "weight"_a, "place"_a, "tension"_a);
+        "weight"_a, "position"_a, "tension"_a);
 
     module.def(
         "jointed_links",

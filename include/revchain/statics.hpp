@@ -6,12 +6,12 @@
 
 /// Force diagrams of steady shapes; weights on a thread between supports, at rest and oscillating.
 ///
-///     Eigen::VectorXd weight(2), place(4);
+///     Eigen::VectorXd weight(2), position(4);
 ///     weight << 1, 2;
-///     place << 0, 1, 2, 3;  // the first support, both weights, the last support
-///     const auto polygon = revchain::funicular_polygon<double>(weight, place, 4.0);
+///     position << 0, 1, 2, 3;  // the first support, both weights, the last support
+///     const auto polygon = revchain::funicular_polygon<double>(weight, position, 4.0);
 ///     polygon.height[1];      // -0.333333, with horizontal tension 4
-///     const auto m = revchain::transverse_modes<double>(weight, place, 4.0);
+///     const auto m = revchain::transverse_modes<double>(weight, position, 4.0);
 ///     m.conical_height[0];    // 0.394338
 ///
 /// Greenhill (1908) §3. Lengths and weights in any units.
@@ -58,7 +58,7 @@ struct ForceDiagram {
 /// Weights on a thread between two supports, at rest in a vertical plane.
 template <Real T>
 struct FunicularPolygon {
-    Vector<T> place;         ///< (n + 2) x of supports and weights
+    Vector<T> position;      ///< (n + 2) x of supports and weights
     Vector<T> height;        ///< (n + 2) z
     Vector<T> rise;          ///< (n + 1) vertical component of each side's tension
     Vector<T> tension;       ///< (n + 1) of each side, the length of its ray
@@ -66,13 +66,13 @@ struct FunicularPolygon {
 };
 
 /// The polygon with a given horizontal component of tension: sides are parallel to the rays from
-/// the pole (0, 0) to (horizontal_tension, rise) on the line of load. `weight` (n); `place` (n + 2)
+/// the pole (0, 0) to (horizontal_tension, rise) on the line of load. `weight` (n); `position` (n + 2)
 /// with both supports. Accuracy: heights half an ulp and 1e-28 of the drop below the chord. Cost
-/// O(n). Throws InvalidArgument unless weights are positive, places increase, and numbers and
+/// O(n). Throws InvalidArgument unless weights are positive, positions increase, and numbers and
 /// results are finite.
 template <Real T>
 [[nodiscard]] FunicularPolygon<T> funicular_polygon(const std::type_identity_t<Vector<T>>& weight,
-                                                    const std::type_identity_t<Vector<T>>& place,
+                                                    const std::type_identity_t<Vector<T>>& position,
                                                     const T& horizontal_tension,
                                                     const T& first_height = T(0),
                                                     const T& last_height = T(0));
@@ -94,13 +94,13 @@ struct TransverseModes {
 /// All transverse modes of weights on a thread of uniform tension, held at both ends. They are also
 /// the modes of a funicular polygon with this horizontal tension, perpendicular to its plane. A
 /// side of length a and tension T resists with T/a, the horizontal component over the horizontal
-/// length. `weight` (n); `place` (n + 2) with both supports. Method: an equivalent hanging chain
+/// length. `weight` (n); `position` (n + 2) with both supports. Method: an equivalent hanging chain
 /// (`modes`). Accuracy: heights 2 ulp (tests/cpp/statics.cpp), within `error_bound`, which is the
 /// proved bound of `modes` plus the roundings of spacings and unit. Throws InvalidArgument unless
-/// there are weights, all positive, places increase, and all numbers, also the heights, are finite.
+/// there are weights, all positive, positions increase, and all numbers, also the heights, are finite.
 template <Real T>
 [[nodiscard]] TransverseModes<T> transverse_modes(const std::type_identity_t<Vector<T>>& weight,
-                                                  const std::type_identity_t<Vector<T>>& place,
+                                                  const std::type_identity_t<Vector<T>>& position,
                                                   const T& tension);
 
 }  // namespace revchain

@@ -173,28 +173,28 @@ TEST_CASE("Force diagram: of another chain", "[finite][force_diagram]") {
 namespace {
 
 struct Given {
-    Vector weight, place;
+    Vector weight, position;
     double horizontal, first, last;
 };
 
 Given random_polygon(Random& random, Index n, double span) {
     Given g{Vector(n), Vector(n + 2), random.log_between(0.1, 100), random.between(-3, 3), random.between(-3, 3)};
     for (Index j = 0; j < n; ++j) g.weight[j] = random.log_between(1 / span, span);
-    g.place[0] = random.between(-5, 5);
-    for (Index j = 0; j <= n; ++j) g.place[j + 1] = g.place[j] + random.log_between(1 / span, span);
+    g.position[0] = random.between(-5, 5);
+    for (Index j = 0; j <= n; ++j) g.position[j + 1] = g.position[j] + random.log_between(1 / span, span);
     return g;
 }
 
 /// Heights by the moments of a beam that carries the weights: the drop below the chord is moment over horizontal tension.
 std::vector<Quad> true_heights(const Given& g) {
     const Index n = g.weight.size();
-    const Quad left = g.place[0], right = g.place[n + 1], span = right - left;
+    const Quad left = g.position[0], right = g.position[n + 1], span = right - left;
     std::vector<Quad> z;
     for (Index i = 0; i < n + 2; ++i) {
-        const Quad x = g.place[i];
+        const Quad x = g.position[i];
         Quad moment = 0;
         for (Index j = 0; j < n; ++j) {
-            const Quad at = g.place[j + 1];
+            const Quad at = g.position[j + 1];
             moment += g.weight[j] * (x < at ? (x - left) * (right - at) : (at - left) * (right - x)) / span;
         }
         z.push_back(g.first + (Quad(g.last) - g.first) * (x - left) / span - moment / g.horizontal);
@@ -210,7 +210,7 @@ struct Sides {
         const auto z = true_heights(g);
         const Index n = g.weight.size();
         for (Index j = 0; j <= n; ++j) {
-            const Quad dx = Quad(g.place[j + 1]) - g.place[j];
+            const Quad dx = Quad(g.position[j + 1]) - g.position[j];
             const Quad dz = z[static_cast<std::size_t>(j) + 1] - z[static_cast<std::size_t>(j)];
             const Quad length = hypotq(dx, dz), tension = g.horizontal * (length / dx);
             stiffness.push_back(tension / length);
@@ -259,18 +259,18 @@ TEST_CASE("Funicular polygon: by the moments of a beam", "[finite][funicular]") 
     for (int i = 0; i < 300; ++i) {
         const Index n = 1 + i % 12;
         const Given g = random_polygon(random, n, 10);
-        const auto polygon = revchain::funicular_polygon<double>(g.weight, g.place, g.horizontal, g.first, g.last);
+        const auto polygon = revchain::funicular_polygon<double>(g.weight, g.position, g.horizontal, g.first, g.last);
         const auto z = true_heights(g);
         Quad lowest = 0;
         for (Index j = 0; j < n + 2; ++j) lowest = fmaxq(lowest, fabsq(z[static_cast<std::size_t>(j)]));
         Quad total = g.weight.sum();
         for (Index j = 0; j < n + 2; ++j)
-            worst =
-                std::max(worst, static_cast<double>(fabsq(polygon.height[j] - z[static_cast<std::size_t>(j)]) /
-                                                    (lowest + total / g.horizontal * (g.place[n + 1] - g.place[0]))) /
-                                    revchain::epsilon<double>() / static_cast<double>(n));
+            worst = std::max(
+                worst, static_cast<double>(fabsq(polygon.height[j] - z[static_cast<std::size_t>(j)]) /
+                                           (lowest + total / g.horizontal * (g.position[n + 1] - g.position[0]))) /
+                           revchain::epsilon<double>() / static_cast<double>(n));
         for (Index j = 0; j <= n; ++j) {
-            const Quad dx = Quad(g.place[j + 1]) - g.place[j];
+            const Quad dx = Quad(g.position[j + 1]) - g.position[j];
             const Quad dz = z[static_cast<std::size_t>(j) + 1] - z[static_cast<std::size_t>(j)];
             worst_tension = std::max(
                 worst_tension, static_cast<double>(fabsq(polygon.tension[j] - g.horizontal * hypotq(dx, dz) / dx) /
@@ -290,7 +290,7 @@ TEST_CASE("String of weights: it oscillates as the polygon does perpendicular to
         for (int i = 0; i < 60; ++i) {
             const Index n = 1 + i % 10;
             const Given g = random_polygon(random, n, span);
-            const auto modes = revchain::transverse_modes<double>(g.weight, g.place, g.horizontal);
+            const auto modes = revchain::transverse_modes<double>(g.weight, g.position, g.horizontal);
             REQUIRE(modes.conical_height.size() == n);
             const Sides sides(g);
             for (Index k = 0; k < n; ++k) {
@@ -335,11 +335,11 @@ TEST_CASE("Funicular polygon, string of weights: wrong numbers", "[finite][funic
     Vector back = four, bad = two;
     back[2] = 0.5, bad[1] = -1;
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    for (const auto& [weight, place, tension] :
+    for (const auto& [weight, position, tension] :
          {std::tuple(two, three, 1.0), std::tuple(two, back, 1.0), std::tuple(bad, four, 1.0),
           std::tuple(two, four, 0.0), std::tuple(two, four, nan)}) {
-        CHECK_THROWS_AS((revchain::funicular_polygon<double>(weight, place, tension)), InvalidArgument);
-        CHECK_THROWS_AS((revchain::transverse_modes<double>(weight, place, tension)), InvalidArgument);
+        CHECK_THROWS_AS((revchain::funicular_polygon<double>(weight, position, tension)), InvalidArgument);
+        CHECK_THROWS_AS((revchain::transverse_modes<double>(weight, position, tension)), InvalidArgument);
     }
     CHECK_THROWS_AS((revchain::transverse_modes<double>(Vector(), Vector::LinSpaced(2, 0, 1), 1.0)), InvalidArgument);
     CHECK_THROWS_AS((revchain::funicular_polygon<double>(two, four, 1.0, nan)), InvalidArgument);

@@ -68,7 +68,7 @@ def test_funicular_polygon_and_its_oscillation_against_a_dense_solver():
         assert polygon.height[0] == 0.5 and polygon.height[-1] == -1.0
         np.testing.assert_array_equal(polygon.weight, weight)
         # forces at every weight
-        side = np.stack([np.diff(polygon.place), np.diff(polygon.height)], axis=1)
+        side = np.stack([np.diff(polygon.position), np.diff(polygon.height)], axis=1)
         pull = polygon.tension[:, None] * side / np.linalg.norm(side, axis=1)[:, None]
         np.testing.assert_allclose(np.diff(pull, axis=0), np.stack([np.zeros(count), weight], axis=1), atol=1e-12)
         rays = np.stack([np.full(count + 1, 1.7), polygon.rise], axis=1)
@@ -154,13 +154,13 @@ def test_words():
     ("weight", "place", "pull", "message"),
     [
         ([1, -1], [0, 1, 2, 3], 1.0, "weight must be positive and finite"),
-        ([1, 1], [0, 1, 2], 1.0, "places must be two more than weights"),
-        ([1, 1], [0, 1, 1, 2], 1.0, "places must be finite and increase"),
-        ([1, 1], [0, 1, np.nan, 2], 1.0, "places must be finite and increase"),
+        ([1, 1], [0, 1, 2], 1.0, "positions must be two more than weights"),
+        ([1, 1], [0, 1, 1, 2], 1.0, "positions must be finite and increase"),
+        ([1, 1], [0, 1, np.nan, 2], 1.0, "positions must be finite and increase"),
         ([1, np.nan], [0, 1, 2, 3], 1.0, "weight must be positive and finite"),
         ([1, 1], [0, 1, 2, 3], 0.0, "tension must be positive"),
         ([1, 1], [0, 1, 2, 3], np.nan, "tension must be positive"),
-        ([1, 1], [[0, 1, 2, 3]], 1.0, "place must be a list of numbers"),
+        ([1, 1], [[0, 1, 2, 3]], 1.0, "position must be a list of numbers"),
     ],
 )
 def test_wrong_polygons(weight, place, pull, message):

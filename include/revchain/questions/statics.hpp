@@ -17,19 +17,21 @@ void check_shape(std::string_view where, const Chain<double>& chain, const Stead
         throw_invalid(where, "the shape must be one of the chain's; its number of links is", links);
 }
 
-/// Throws InvalidArgument for weights that are not positive, and for places that do not increase.
+/// Throws InvalidArgument for weights that are not positive, and for positions that do not increase.
 template <Real T>
-void check_string(std::string_view where, const Vector<T>& weight, const Vector<T>& place) {
+void check_string(std::string_view where, const Vector<T>& weight, const Vector<T>& position) {
     using std::isfinite;
-    if (place.size() != weight.size() + 2)
-        throw_invalid(where, "places must be two more than weights: both supports and every weight",
-                      place.size());
+    if (position.size() != weight.size() + 2)
+        throw_invalid(where,
+                      "positions must be two more than weights: both supports and every weight",
+                      position.size());
     for (Index j = 0; j < weight.size(); ++j) require_positive(where, "weight", weight[j]);
-    for (Index j = 0; j < place.size(); ++j)
-        if (!isfinite(place[j]) || (j > 0 && !(place[j - 1] < place[j])))
-            throw_invalid(where,
-                          "places must be finite and increase, place " + std::to_string(j) + " too",
-                          place[j]);
+    for (Index j = 0; j < position.size(); ++j)
+        if (!isfinite(position[j]) || (j > 0 && !(position[j - 1] < position[j])))
+            throw_invalid(
+                where,
+                "positions must be finite and increase, position " + std::to_string(j) + " too",
+                position[j]);
 }
 
 }  // namespace detail
@@ -84,36 +86,38 @@ inline Chain<double> transferred_to_axis(const Chain<double>& chain, const Stead
 
 template <Real T>
 FunicularPolygon<T> funicular_polygon(const std::type_identity_t<Vector<T>>& weight,
-                                      const std::type_identity_t<Vector<T>>& place,
+                                      const std::type_identity_t<Vector<T>>& position,
                                       const T& horizontal_tension, const T& first_height,
                                       const T& last_height) {
     using std::hypot, std::isfinite;
     constexpr std::string_view where = "funicular_polygon";
     const Index n = weight.size();
-    detail::check_string(where, weight, place);
+    detail::check_string(where, weight, position);
     detail::require_positive(where, "horizontal tension", horizontal_tension);
-    if (!(place.cwiseAbs().maxCoeff() <= std::numeric_limits<T>::max() * epsilon<T>()))
-        detail::throw_invalid(where, "places must not be so near the end of the range of numbers",
-                              place[n + 1]);
+    if (!(position.cwiseAbs().maxCoeff() <= std::numeric_limits<T>::max() * epsilon<T>()))
+        detail::throw_invalid(where,
+                              "positions must not be so near the end of the range of numbers",
+                              position[n + 1]);
     for (const T& height : {first_height, last_height})
         if (!isfinite(height))
             detail::throw_invalid(where, "heights of the supports must be finite", height);
-    FunicularPolygon<T> polygon{place, Vector<T>(n + 2), Vector<T>(n + 1), Vector<T>(n + 1),
+    FunicularPolygon<T> polygon{position, Vector<T>(n + 2), Vector<T>(n + 1), Vector<T>(n + 1),
                                 horizontal_tension};
     using S = Wide<T>;
     const auto wide = [](const T& x) { return S(static_cast<Narrow<S>>(x)); };
-    const S end = wide(place[n + 1]), span = end - wide(place[0]), pull = wide(horizontal_tension);
+    const S end = wide(position[n + 1]), span = end - wide(position[0]),
+            pull = wide(horizontal_tension);
     // Moments about the last support give the load of the first one.
     S lifts = pull * (wide(first_height) - wide(last_height)) / span;
     for (Index j = 0; j < n; ++j)
-        lifts = lifts + wide(weight[j]) * (end - wide(place[j + 1])) / span;
+        lifts = lifts + wide(weight[j]) * (end - wide(position[j + 1])) / span;
     S rise = -lifts, height = wide(first_height);
     polygon.height[0] = first_height;
     for (Index j = 0; j <= n; ++j) {
         if (j > 0) rise = rise + wide(weight[j - 1]);
         polygon.rise[j] = static_cast<T>(rise);
         polygon.tension[j] = hypot(horizontal_tension, polygon.rise[j]);
-        height = height + rise / pull * (wide(place[j + 1]) - wide(place[j]));
+        height = height + rise / pull * (wide(position[j + 1]) - wide(position[j]));
         polygon.height[j + 1] = static_cast<T>(height);
     }
     polygon.height[n + 1] = last_height;
@@ -126,13 +130,13 @@ FunicularPolygon<T> funicular_polygon(const std::type_identity_t<Vector<T>>& wei
 
 template <Real T>
 TransverseModes<T> transverse_modes(const std::type_identity_t<Vector<T>>& weight,
-                                    const std::type_identity_t<Vector<T>>& place,
+                                    const std::type_identity_t<Vector<T>>& position,
                                     const T& tension) {
     using std::isfinite, std::ldexp;
     constexpr std::string_view where = "transverse_modes";
     const Index n = weight.size();
     if (n == 0) detail::throw_invalid(where, "there must be a weight; their number is", n);
-    detail::check_string(where, weight, place);
+    detail::check_string(where, weight, position);
     detail::require_positive(where, "tension", tension);
     // The string hangs as a chain from its last support. A weight 2^(digits + 47) times all others
     // replaces the first support: it stretches the chain evenly and does not move, both to far less
@@ -143,9 +147,9 @@ TransverseModes<T> transverse_modes(const std::type_identity_t<Vector<T>>& weigh
     for (Index j = 0; j < n; ++j) total += weight[j] * unit;
     const T heavy =
         ldexp(T(1) / detail::inverse_power_near(total), std::numeric_limits<T>::digits + 47);
-    std::vector<Link<T>> links{plummet<T>(heavy, place[1] - place[0])};
+    std::vector<Link<T>> links{plummet<T>(heavy, position[1] - position[0])};
     for (Index j = 0; j < n; ++j)
-        links.push_back(plummet<T>(weight[j] * unit, place[j + 2] - place[j + 1]));
+        links.push_back(plummet<T>(weight[j] * unit, position[j + 2] - position[j + 1]));
     const Modes<T> found = modes(Chain<T>(links), {.first = 2, .count = all_modes});
     const T factor = heavy / (tension * unit);
     TransverseModes<T> result{found.conical_height, found.error_bound, found.shapes()};

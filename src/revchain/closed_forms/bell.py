@@ -160,19 +160,19 @@ class BellAndClapper(
         >>> blow.side, round(blow.bell_angle, 3), round(blow.relative_speed, 2)
         ('leading', 1.851, 2.52)
         """
-        place = "revchain.BellAndClapper.first_strike"
-        gap = _clearance(place, clearance)
-        from_angle = None if amplitude is None else real(place, "amplitude", amplitude)
+        caller = "revchain.BellAndClapper.first_strike"
+        gap = _clearance(caller, clearance)
+        from_angle = None if amplitude is None else real(caller, "amplitude", amplitude)
         if from_angle is not None and not 0 < from_angle <= math.pi:
-            raise ValueError(f"{place}: amplitude must be between 0 and pi, got {shown(from_angle)}")
+            raise ValueError(f"{caller}: amplitude must be between 0 and pi, got {shown(from_angle)}")
         require("scipy", "fit", "the first strike of a clapper")
         return _first_strike(self.present, gap, from_angle, self.gravity)
 
 
-def _clearance(place: str, clearance: float) -> float:
-    angle = real(place, "clearance", clearance)
+def _clearance(caller: str, clearance: float) -> float:
+    angle = real(caller, "clearance", clearance)
     if not 0 < angle < math.pi / 2:
-        raise ValueError(f"{place}: clearance must be between 0 and pi / 2, got {shown(angle)}")
+        raise ValueError(f"{caller}: clearance must be between 0 and pi / 2, got {shown(angle)}")
     return angle
 
 
@@ -195,12 +195,12 @@ def bell_and_clapper(chain: Chain, *, gravity: float = STANDARD_GRAVITY) -> Bell
     >>> rc.bell_and_clapper(chain).derivative["bell_centroid"] > 0
     True
     """
-    place = "revchain.bell_and_clapper"
-    height, ratio, silent, mismatch, present, derivative = _core.bell_and_clapper(compiled(place, chain))
+    caller = "revchain.bell_and_clapper"
+    height, ratio, silent, mismatch, present, derivative = _core.bell_and_clapper(compiled(caller, chain))
     found = {"conical_height": np.asarray(height), "inclination_ratio": np.asarray(ratio), "silent_height": silent}
     found |= {"mismatch": mismatch, "present": dict(zip(_core.BELL_DATA, present, strict=True))}
     found["derivative"] = dict(zip(_core.BELL_DATA, derivative, strict=True))
-    return BellAndClapper._made(None, system=chain, gravity=one_positive(place, "gravity", gravity), **found)
+    return BellAndClapper._made(None, system=chain, gravity=one_positive(caller, "gravity", gravity), **found)
 
 
 # ---- the plane motion up to the first blow, integrated by SciPy

@@ -58,14 +58,14 @@ def jacobi(u: ArrayLike, *, modulus: float | None = None, complementary_modulus:
     >>> round(float(f.sn), 12), round(float(f.cn**2 + f.sn**2), 12)
     (0.81409141238, 1.0)
     """
-    place = "revchain.elliptic.jacobi"
+    caller = "revchain.elliptic.jacobi"
     moduli = {"modulus": modulus, "complementary_modulus": complementary_modulus}
     if (modulus is None) == (complementary_modulus is None):
-        raise ValueError(f"{place}: give exactly one of modulus and complementary_modulus")
-    checked = {name: nan if value is None else real(place, name, value) for name, value in moduli.items()}
+        raise ValueError(f"{caller}: give exactly one of modulus and complementary_modulus")
+    checked = {name: nan if value is None else real(caller, name, value) for name, value in moduli.items()}
     for name, value in checked.items():
         if moduli[name] is not None and not 0 <= value <= 1:
-            raise ValueError(f"{place}: {name} must lie between 0 and 1, got {value:g}")
-    argument = floats(place, "u", u)
-    refuse_where(~(abs(argument) < float("inf")), argument, f"{place}: u must be finite")
+            raise ValueError(f"{caller}: {name} must lie between 0 and 1, got {value:g}")
+    argument = floats(caller, "u", u)
+    refuse_where(~(abs(argument) < float("inf")), argument, f"{caller}: u must be finite")
     return Jacobi(*numbers(_core.elliptic_jacobi(argument, *checked.values())))

@@ -43,21 +43,21 @@ class Solved(Result):
 
     def _solve(self, given: dict[str, Any]) -> None:
         """Check the arguments of the constructor, which are its `locals()`, and compute the result."""
-        place = f"revchain.{type(self).__name__}"
+        caller = f"revchain.{type(self).__name__}"
         checked: dict[str, Any] = {}
         for name, value in given.items():
             if name == "half_waves":
-                checked[name] = count(place, name, value)
+                checked[name] = count(caller, name, value)
             elif name != "self":
-                number = as_length(place, name, value) if name == "tension" else value
-                checked[name] = None if number is None and name in self._optional else real(place, name, number)
+                number = as_length(caller, name, value) if name == "tension" else value
+                checked[name] = None if number is None and name in self._optional else real(caller, name, number)
         self.__dict__.update(_given=checked, _core=None)
         self._found()
 
     def _at(self, method: str, name: str, value: ArrayLike) -> tuple[Any, ...]:
         """The columns that the method of the compiled result returns for an array."""
-        place = f"revchain.{type(self).__name__}.{method}"
-        return tuple(numbers(getattr(self._found(), method)(floats(place, name, value))))
+        caller = f"revchain.{type(self).__name__}.{method}"
+        return tuple(numbers(getattr(self._found(), method)(floats(caller, name, value))))
 
     def _from_parts(self) -> Any:
         return self._solver(**self._given)

@@ -83,7 +83,7 @@ class FunicularPolygon(Result):
     >>> import revchain as rc
     >>> rc.funicular_polygon([1.0, 1.0], [0.0, 1.0, 2.0, 3.0], horizontal_tension=0.5)
     FunicularPolygon: 2 weights, horizontal tension 0.5
-    point    place    height   weight  tension in next segment
+    point position    height   weight  tension in next segment
         0  0.00000   0.00000      nan                  1.11803
         1  1.00000  -2.00000  1.00000                 0.500000
         2  2.00000  -2.00000  1.00000                  1.11803
@@ -92,7 +92,7 @@ class FunicularPolygon(Result):
 
     __slots__ = ()
     weight: Field[Floats] = Field("The weights from the first support to the last, shape (n,).")
-    place: Field[Floats] = Field("Positions of supports and weights along the horizontal, shape (n + 2,).")
+    position: Field[Floats] = Field("Positions of supports and weights along the horizontal, shape (n + 2,).")
     height: Field[Floats] = Field("Heights of supports and weights, shape (n + 2,).")
     rise: Field[Floats] = Field(
         "Vertical component of the tension of each side, shape (n + 1,). In the force diagram the ray of a side runs "
@@ -116,13 +116,13 @@ class FunicularPolygon(Result):
         >>> line.transverse_modes().conical_height.round(6)
         array([2.      , 0.666667])
         """
-        return transverse_modes(self.weight, self.place, self.horizontal_tension, gravity=gravity)
+        return transverse_modes(self.weight, self.position, self.horizontal_tension, gravity=gravity)
 
     def _sheet(self, brief: bool = False) -> Sheet:
         gap = [np.nan]
         columns = [
-            Column("point", np.arange(len(self.place)), "point"),
-            Column("place", self.place, "place"),
+            Column("point", np.arange(len(self.position)), "point"),
+            Column("position", self.position, "position"),
             Column("height", self.height, "height"),
             Column("weight", np.concatenate([gap, self.weight, gap]), "weight"),
             Column("tension", np.concatenate([self.tension, gap]), "tension in next segment"),
@@ -138,13 +138,13 @@ class FunicularPolygon(Result):
     "O(n); 40 microseconds for 1000 weights",
 )
 def funicular_polygon(
-    weight: ArrayLike, place: ArrayLike, horizontal_tension: float, *, first_height: float = 0.0,
+    weight: ArrayLike, position: ArrayLike, horizontal_tension: float, *, first_height: float = 0.0,
     last_height: float = 0.0,
 ) -> FunicularPolygon:
     """Return the funicular polygon of weights on a thread between two supports.
 
     weight: The n weights from the first support to the last
-    place: The n + 2 horizontal positions of the first support, the weights and the last support, increasing.
+    position: The n + 2 horizontal positions of the first support, the weights and the last support, increasing.
     horizontal_tension: Horizontal component of the tension, in the unit of the weights, positive.
     returns: Heights and tensions of the thread.
     raises: If a number is out of its range, or there are not two more positions than weights.
@@ -153,19 +153,19 @@ def funicular_polygon(
     array([ 0., -2., -2.,  0.])
     """
     name = "revchain.funicular_polygon"
-    weights, at = _string(name, weight, place)
+    weights, at = _string(name, weight, position)
     given = reals(name, horizontal_tension=horizontal_tension, first_height=first_height, last_height=last_height)
     return FunicularPolygon._made(_core.funicular_polygon(weights, at, **given), weight=weights.copy())
 
 
 @described("2 ulp of the conical heights", "section 3", "O(n**2); 14 ms for 1000 weights")
 def transverse_modes(
-    weight: ArrayLike, place: ArrayLike, tension: float, *, gravity: float = STANDARD_GRAVITY
+    weight: ArrayLike, position: ArrayLike, tension: float, *, gravity: float = STANDARD_GRAVITY
 ) -> TransverseModes:
     """Return the small transverse oscillations of a string of weights held at both ends.
 
     weight: The n weights from the first support to the last
-    place: The n + 2 positions of the first support, the weights and the last support along the string, increasing.
+    position: The n + 2 positions of the first support, the weights and the last support along the string, increasing.
     tension: Tension of the string, uniform, in the unit of the weights
     gravity: Acceleration of gravity, which relates weights to masses (standard gravity in m/s^2 if left out)
     returns: All n modes.
@@ -177,16 +177,16 @@ def transverse_modes(
            [ 0.,  1., -1.,  0.]])
     """
     name = "revchain.transverse_modes"
-    weights, at = _string(name, weight, place)
+    weights, at = _string(name, weight, position)
     height, bound, shape = _core.transverse_modes(weights, at, real(name, "tension", tension))
     g = one_positive(name, "gravity", gravity)
     return TransverseModes._made(None, gravity=g, conical_height=height, error_bound=bound, shape=shape)
 
 
-def _string(name: str, weight: ArrayLike, place: ArrayLike) -> tuple[Floats, Floats]:
+def _string(name: str, weight: ArrayLike, position: ArrayLike) -> tuple[Floats, Floats]:
     """Return positive weights and their positions, each with one axis; the compiled module checks their numbers."""
-    weights, at = positive(name, "weight", weight), floats(name, "place", place)
-    for given, array in (("weight", weights), ("place", at)):
+    weights, at = positive(name, "weight", weight), floats(name, "position", position)
+    for given, array in (("weight", weights), ("position", at)):
         if array.ndim != 1:
             raise ValueError(f"{name}: {given} must be a list of numbers, got an array of shape {array.shape}")
     return weights, at
@@ -309,9 +309,9 @@ class GyrostaticString:
         >>> bool(string.plane_rotation(10.0) > 0)
         True
         """
-        place = "revchain.GyrostaticString.plane_rotation"
-        speed = floats(place, "angular_speed", angular_speed)
-        refuse_where(~(speed > 0), speed, f"{place}: angular_speed must be positive")
+        caller = "revchain.GyrostaticString.plane_rotation"
+        speed = floats(caller, "angular_speed", angular_speed)
+        refuse_where(~(speed > 0), speed, f"{caller}: angular_speed must be positive")
         return self._at("plane_rotation", "angular_speed", speed, _core.gyrostatic_string_rotation)[0]
 
     def _at(self, method: str, name: str, value: ArrayLike, function: Any) -> tuple[FloatOrArray, ...]:

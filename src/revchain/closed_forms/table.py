@@ -125,7 +125,7 @@ class Form:
 
     def __init__(self, function: Formula, formula: Formula, made: Formula | None) -> None:
         self.name = f"{function.__module__.rpartition('.')[2]}.{function.__name__}"
-        self.place = f"revchain.{self.name}"
+        self.caller = f"revchain.{self.name}"
         self.function, self.formula = function, formula
         self.signature = inspect.signature(function)
         self.single = any(each.annotation == "float" for each in self.signature.parameters.values())
@@ -141,18 +141,18 @@ class Form:
         self.function(*given, **named)  # Python's own errors for arguments that are missing or unknown
         values = self.defaults | dict(zip(self.defaults, given, strict=False)) | named
         arrays = {name: self._checked(name, value) for name, value in values.items()}
-        return self.made(self.formula(*(map(float, arrays.values()) if self.single else beside(self.place, **arrays))))
+        return self.made(self.formula(*(map(float, arrays.values()) if self.single else beside(self.caller, **arrays))))
 
     def _checked(self, name: str, value: Any) -> Floats:
         if self.single:
-            value = real(self.place, name, value)
+            value = real(self.caller, name, value)
         elif name == "tension":
-            value = as_length(self.place, name, value)
+            value = as_length(self.caller, name, value)
         if name in POSITIVE:
-            return positive(self.place, name, value)
-        array = floats(self.place, name, value)
+            return positive(self.caller, name, value)
+        array = floats(self.caller, name, value)
         if name in NOT_NEGATIVE:
-            refuse_where(~((array >= 0) & (array < inf)), array, f"{self.place}: {name} must be finite and not negative")
+            refuse_where(~((array >= 0) & (array < inf)), array, f"{self.caller}: {name} must be finite and not negative")
         return array
 
 

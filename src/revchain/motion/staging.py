@@ -37,7 +37,7 @@ Turning = tuple[str, Any, Floats, float, float]  # label, offsets, heights, spee
 class Choices:
     """What the caller chooses for a film: figures, time scale, length and frame rate."""
 
-    place: str
+    caller: str
     frames_per_second: float = 25.0
     figures: Iterable[int] | None = None
     time_scale: float | None = None
@@ -46,12 +46,12 @@ class Choices:
     def __post_init__(self) -> None:
         for name in ("time_scale", "duration"):
             if (value := getattr(self, name)) is not None:
-                object.__setattr__(self, name, one_positive(self.place, name, value))
+                object.__setattr__(self, name, one_positive(self.caller, name, value))
 
     def only_one(self) -> None:
         """Refuse a choice of figures where the result is a single one."""
         if self.figures is not None:
-            raise ValueError(f"{self.place}: figures is for several modes, shapes or branches; leave it out here")
+            raise ValueError(f"{self.caller}: figures is for several modes, shapes or branches; leave it out here")
 
     def among(self, found: Any, what: str, first: int = 0) -> list[tuple[str, Any]]:
         """The chosen items of a list, each with a label that counts from `first`; a single result without a label."""
@@ -60,21 +60,21 @@ class Choices:
             return [("", found)]
         count = len(found)
         if not count:
-            raise ValueError(f"{self.place}: there is no {what} to draw")
+            raise ValueError(f"{self.caller}: there is no {what} to draw")
         if self.figures is None:
             chosen = list(range(min(count, MOST_SHAPES)))
         else:
-            numbers = listed(self.place, "figures", self.figures)
-            chosen = [place_of(self.place, "figures", each, count) for each in numbers]
+            numbers = listed(self.caller, "figures", self.figures)
+            chosen = [place_of(self.caller, "figures", each, count) for each in numbers]
         if not chosen:
-            raise ValueError(f"{self.place}: figures names no {what}")
+            raise ValueError(f"{self.caller}: figures names no {what}")
         return [(f"{what} {k + first}", found[k]) for k in chosen]
 
     def frames(self, seconds: float) -> int:
         """Return the number of frames in a film of so many seconds; refuse too many."""
         if seconds * self.frames_per_second > MOST_FRAMES:
             raise ValueError(
-                f"{self.place}: duration times frames_per_second must be at most {MOST_FRAMES}, "
+                f"{self.caller}: duration times frames_per_second must be at most {MOST_FRAMES}, "
                 f"got {seconds:g} s at {self.frames_per_second:g}"
             )
         return max(2, round(seconds * self.frames_per_second))
@@ -83,7 +83,7 @@ class Choices:
 @singledispatch
 def staged(result: Any, choices: Choices) -> Film:
     """Return the film of a result; each kind of result registers a function of its own."""
-    raise TypeError(f"{choices.place}: a {type(result).__name__} does not move")
+    raise TypeError(f"{choices.caller}: a {type(result).__name__} does not move")
 
 
 # ---- what turns at a constant speed
@@ -91,7 +91,7 @@ def staged(result: Any, choices: Choices) -> Film:
 
 @staged.register
 def _(modes: Modes, choices: Choices) -> Film:
-    rows = rows_of(choices.place, modes, choices.figures)
+    rows = rows_of(choices.caller, modes, choices.figures)
     straight = Straight(modes.system)
     height = np.asarray(straight.height, float)
     largest = _reach_of_small(height, len(rows))
@@ -189,12 +189,12 @@ def _shape_or_none(branch: Any, point: int) -> Any:
 def _(found: Response, choices: Choices) -> Film:
     choices.only_one()
     if found.pins.shape != (found.system.size + 1,) or not np.array_equal(found.pins, np.arange(found.pins.size)):
-        raise ValueError(f"{choices.place}: every pin is needed; compute the response without pins=")
+        raise ValueError(f"{choices.caller}: every pin is needed; compute the response without pins=")
     height = Straight(found.system).height
     speed, offset = found.angular_speed.reshape(-1), found.offset.reshape(-1, found.pins.size)
     known = np.isfinite(offset).all(axis=1)
     if not known.any():
-        raise ValueError(f"{choices.place}: there is no speed to draw that is not a resonance")
+        raise ValueError(f"{choices.caller}: there is no speed to draw that is not a resonance")
     order = np.argsort(speed[known])
     speed, offset = speed[known][order], offset[known][order]
     largest, most = _reach_of_small(height, 1), np.abs(offset).max(axis=1)
@@ -279,7 +279,7 @@ def _(found: Swing, choices: Choices) -> Film:
     choices.only_one()
     first, last = float(found.time.min(initial=np.inf)), float(found.time.max(initial=-np.inf))
     if not first < last:
-        raise ValueError(f"{choices.place}: the swing needs two times or more, the first and the last of the film")
+        raise ValueError(f"{choices.caller}: the swing needs two times or more, the first and the last of the film")
     seconds = choices.duration or min(
         (last - first) / (choices.time_scale or 1.0), LONGEST if choices.time_scale is None else np.inf
     )

@@ -62,19 +62,19 @@ def write_film(
     **chosen: Any,
 ) -> None:
     """Write a result to a path; see `Moving`, whose methods `animate` and `to_glb` pass on what the caller chose."""
-    place, writers = f"revchain.{type(result).__name__}.{method}", WRITERS[method]
-    ending = os.path.splitext(file_path(place, "path", path))[1].lower()
+    caller, writers = f"revchain.{type(result).__name__}.{method}", WRITERS[method]
+    ending = os.path.splitext(file_path(caller, "path", path))[1].lower()
     if ending not in writers:
-        raise ValueError(f"{place}: path must end in {', '.join(writers)}, got {os.fspath(path)}")
+        raise ValueError(f"{caller}: path must end in {', '.join(writers)}, got {os.fspath(path)}")
     require_for(ending)
-    rate = one_positive(place, "frames_per_second", frames_per_second)
+    rate = one_positive(caller, "frames_per_second", frames_per_second)
     if not RATES[0] <= rate <= RATES[1]:
-        raise ValueError(f"{place}: frames_per_second must be from {RATES[0]:g} to {RATES[1]:g}, got {rate:g}")
+        raise ValueError(f"{caller}: frames_per_second must be from {RATES[0]:g} to {RATES[1]:g}, got {rate:g}")
     if progress is not None and not callable(progress):
-        raise TypeError(f"{place}: progress must be a function of two numbers, got {shown(progress)}")
+        raise TypeError(f"{caller}: progress must be a function of two numbers, got {shown(progress)}")
     if ending == ".gif":
         rate = 100 / max(2, round(100 / rate))  # its clock counts hundredths of a second
-    film = _film(result, Choices(place, rate, **chosen), is_solid=ending in (".html", ".glb"))
+    film = _film(result, Choices(caller, rate, **chosen), is_solid=ending in (".html", ".glb"))
     with naming(path), written_aside(path) as [aside]:
         writers[ending](film, aside, progress or _silent)
 
@@ -95,9 +95,9 @@ class View:
 
 def show_film(result: Any, height: float, **chosen: Any) -> View:
     """Return the page of a result as a view; see `Moving.show`."""
-    place = f"revchain.{type(result).__name__}.show"
-    tall = one_positive(place, "height", height)
-    return View(page_of(_film(result, Choices(place, **chosen), is_solid=True), _silent), tall)
+    caller = f"revchain.{type(result).__name__}.show"
+    tall = one_positive(caller, "height", height)
+    return View(page_of(_film(result, Choices(caller, **chosen), is_solid=True), _silent), tall)
 
 
 def _film(result: Any, choices: Choices, is_solid: bool) -> Film:
@@ -106,7 +106,7 @@ def _film(result: Any, choices: Choices, is_solid: bool) -> Film:
     turns = max(float(np.abs(figure.phase).max()) for figure in film.figures) / (2 * np.pi)
     if is_solid and turns > MOST_TURNS:
         most = f"no figure may turn more than {MOST_TURNS} times"
-        raise ValueError(f"{choices.place}: {most}; lower time_scale or duration, got {turns:g} turns")
+        raise ValueError(f"{choices.caller}: {most}; lower time_scale or duration, got {turns:g} turns")
     return film
 
 

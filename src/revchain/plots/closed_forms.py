@@ -136,7 +136,7 @@ def plot_funicular_polygon(
     'funicular polygon'
     """
     left, forces = _two_axes(axes, WIDEST, 4.0)
-    x, z, rise, pull = polygon.place, polygon.height, polygon.rise, polygon.horizontal_tension
+    x, z, rise, pull = polygon.position, polygon.height, polygon.rise, polygon.horizontal_tension
     lettered = len(x) - 2 <= MAX_LETTERED
     line = max(float(z.max()), 0.0) + 0.12 * (float(x[-1] - x[0]))
     left.plot([x[0], x[-1]], [line, line], color="0.4", linewidth=1.0)
@@ -216,12 +216,12 @@ def plot_governor(motion: GovernorMotion, ax: Axes | None = None, *, duration: f
     >>> rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5).plot().get_ylabel()
     'angle (degrees)'
     """
-    place = "revchain.GovernorMotion.plot"
+    caller = "revchain.GovernorMotion.plot"
     if duration is None:
         if motion.regime == "asymptotic":
-            raise ValueError(f"{place}: give duration: the motion never returns")
+            raise ValueError(f"{caller}: give duration: the motion never returns")
         duration = 2 * motion.period if motion.period > 0 else 1.0
-    time = np.linspace(0.0, one_positive(place, "duration", duration), 801)
+    time = np.linspace(0.0, one_positive(caller, "duration", duration), 801)
     ax = axes_or_new(ax, 6.4, 4.0)
     for angle in (motion.least_angle, motion.greatest_angle):
         if np.isfinite(angle):
@@ -267,12 +267,12 @@ def plot_vibration(string: GyrostaticString, angular_speed: float, links: int = 
     >>> string.plot_vibration(8.0).get_xlabel()
     'link'
     """
-    place = "revchain.GyrostaticString.plot_vibration"
-    speed = one_positive(place, "angular_speed", angular_speed)
-    links = count(place, "links", links, each=64)
+    caller = "revchain.GyrostaticString.plot_vibration"
+    speed = one_positive(caller, "angular_speed", angular_speed)
+    links = count(caller, "links", links, each=64)
     turn = float(string.plane_rotation(speed))  # of the plane, from link to link
     if turn != turn:
-        raise ValueError(f"{place}: a circular wave does not pass at angular_speed, got {speed:g}")
+        raise ValueError(f"{caller}: a circular wave does not pass at angular_speed, got {speed:g}")
     phase = float(string.phase(speed) + string.phase(-speed)) / 2
     ax = axes_or_new(ax, 8.0, 4.0)
     pin = np.arange(links + 1)

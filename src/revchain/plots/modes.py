@@ -236,19 +236,19 @@ def beside_at_rest(system: System | None, ax: Axes | None, width: float, height:
     return axes
 
 
-def rows_of(place: str, modes: Modes, which: Iterable[int] | None) -> Whole:
+def rows_of(caller: str, modes: Modes, which: Iterable[int] | None) -> Whole:
     """Return the rows of the modes to draw; of a rig both directions of each number."""
     available = modes.number
     if available.size == 0:
-        raise ValueError(f"{place}: there are no modes")
+        raise ValueError(f"{caller}: there are no modes")
     if which is None:
         return np.arange(min(len(modes), MOST_SHAPES))
-    numbers = [integer(place, "modes", mode) for mode in listed(place, "modes", which)]
+    numbers = [integer(caller, "modes", mode) for mode in listed(caller, "modes", which)]
     for mode in numbers:
         if not available.min() <= mode <= available.max():
-            raise ValueError(f"{place}: mode must be from {available.min()} to {available.max()}, got {mode}")
+            raise ValueError(f"{caller}: mode must be from {available.min()} to {available.max()}, got {mode}")
     if not numbers:
-        raise ValueError(f"{place}: modes names no mode")
+        raise ValueError(f"{caller}: modes names no mode")
     return np.concatenate([np.flatnonzero(available == number) for number in numbers])
 
 
@@ -272,14 +272,14 @@ def plot_modes(
     >>> ax.get_ylabel()
     'depth below the support (m)'
     """
-    place, system = "revchain.Modes.plot", found.system
-    units = ALL_BUT_HERTZ if speed is None else [SpeedUnit(place, speed)]
+    caller, system = "revchain.Modes.plot", found.system
+    units = ALL_BUT_HERTZ if speed is None else [SpeedUnit(caller, speed)]
     if carried is not None and not isinstance(carried, Response):
-        raise TypeError(f"{place}: carried must be a revchain.Response, got {shown(carried)}")
+        raise TypeError(f"{caller}: carried must be a revchain.Response, got {shown(carried)}")
     if carried is not None and (carried.system != system or carried.offset.shape != (system.size + 1,)):
-        raise ValueError(f"{place}: carried must be the response of the same rig at one speed, of every pin")
+        raise ValueError(f"{caller}: carried must be the response of the same rig at one speed, of every pin")
     no_motion = system._kind == "rig" and not len(found) and modes is None
-    rows = np.arange(0) if no_motion else rows_of(place, found, modes)
+    rows = np.arange(0) if no_motion else rows_of(caller, found, modes)
     straight = Straight(system)
     names, rates = ([], []) if carried is None else (["carried round"], [carried.angular_speed.item()])
     before = 1 + len(names)

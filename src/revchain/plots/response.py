@@ -44,14 +44,14 @@ def plot_response(
     >>> ax.get_xlabel()
     'frequency (Hz)'
     """
-    place = "revchain.Response.plot"
-    unit, rate = SpeedUnit(place, speed), found.angular_speed.reshape(-1)
+    caller = "revchain.Response.plot"
+    unit, rate = SpeedUnit(caller, speed), found.angular_speed.reshape(-1)
     available = np.atleast_1d(found.pins).tolist()
     if rate.size == 0:
-        raise ValueError(f"{place}: the response has no speed to draw; it needs at least one")
+        raise ValueError(f"{caller}: the response has no speed to draw; it needs at least one")
     if rate.size == 1:
-        return plot_carried(found, ax, available if pins is None else pins_among(place, pins, available), unit)
-    chosen = _spread(available, found.system.size) if pins is None else pins_among(place, pins, available)
+        return plot_carried(found, ax, available if pins is None else pins_among(caller, pins, available), unit)
+    chosen = _spread(available, found.system.size) if pins is None else pins_among(caller, pins, available)
     order = np.argsort(rate)
     rate, offset = rate[order], found.offset.reshape(rate.size, -1)[order]
     if unit.unit == "s" and rate[0] < 0 < rate[-1]:  # the curves break at rest, the period of which is infinite
@@ -65,7 +65,7 @@ def plot_response(
             label = pin_name(pin) if side == 1 else None
             ax.plot(unit.of(rate), size, style, color=f"C{number % 10}", linewidth=1.4, label=label)
     ax.axhline(found.support_radius, color="0.6", linewidth=0.8, zorder=0)
-    for at in found.whirl_speeds if boolean(place, "resonances", resonances) else ():
+    for at in found.whirl_speeds if boolean(caller, "resonances", resonances) else ():
         ax.axvline(unit.of(at), **{**AXIS, "zorder": 0})
     ax.set_yscale("log")
     finite = np.abs(offset[np.isfinite(offset) & (offset != 0)])
@@ -111,10 +111,10 @@ def plot_swing(
     >>> ax.get_xlabel()
     'time (s)'
     """
-    place, turns = "revchain.Swing.plot", found.offset.dtype.kind == "c"
+    caller, turns = "revchain.Swing.plot", found.offset.dtype.kind == "c"
     kinds = ("path", "time") if turns else ("shapes", "time")
-    kind = word(place, "kind", kinds[0] if kind is None else kind, kinds)
-    chosen, order = pins_among(place, pins, range(found.offset.shape[1])), np.argsort(found.time)
+    kind = word(caller, "kind", kinds[0] if kind is None else kind, kinds)
+    chosen, order = pins_among(caller, pins, range(found.offset.shape[1])), np.argsort(found.time)
     ax = beside_at_rest(found.system, ax, *{"time": (7.0, 4.0), "path": (5.0, 5.0), "shapes": (5.0, 6.0)}[kind])
     if kind == "shapes":
         return _draw_moments(found, ax, order)

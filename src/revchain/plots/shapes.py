@@ -146,13 +146,13 @@ def plot_branches(
     return ax
 
 
-def _draw_branches(branches: Sequence[Branch], ax: Axes | None, quantity: str | None, speed: str, place: str) -> Axes:
+def _draw_branches(branches: Sequence[Branch], ax: Axes | None, quantity: str | None, speed: str, caller: str) -> Axes:
     """Draw a curve for each branch, and mark births and folds."""
-    unit = SpeedUnit(place, speed)
+    unit = SpeedUnit(caller, speed)
     available = [name for name in QUANTITIES if not len(branches) or hasattr(branches[0], name)]
     if quantity is None:
         quantity = "largest_offset" if len(branches) and "tip_radius" not in available else "lowest_inclination"
-    word(place, "quantity", quantity, available)
+    word(caller, "quantity", quantity, available)
     ax = beside_at_rest(branches[0].system if len(branches) else None, ax, 7.2, 5.0)
     named: set[int] = set()
     curves: dict[Artist, int] = {}

@@ -47,8 +47,8 @@ MOST_POINTS = 2000  # per curve: about the pixels of a large picture
 class SpeedUnit:
     """The unit in which a picture shows speeds, which are given to it in rad/s."""
 
-    def __init__(self, place: str, unit: str) -> None:
-        self.unit = word(place, "speed", unit, SPEED_UNITS)
+    def __init__(self, caller: str, unit: str) -> None:
+        self.unit = word(caller, "speed", unit, SPEED_UNITS)
         self.quantity, self.per_radian = SPEED_UNITS[unit]
 
     @property
@@ -78,16 +78,16 @@ def with_speeds(names: Iterable[str], speeds: Iterable[float], units: list[Speed
     return ["\n".join([name, *[unit.text(at) for unit in units]]) for name, at in zip(names, speeds, strict=True)]
 
 
-def pins_among(place: str, pins: Iterable[int], available: Collection[int]) -> list[int]:
+def pins_among(caller: str, pins: Iterable[int], available: Collection[int]) -> list[int]:
     """The numbers of the pins to draw; a ValueError if one of them is not available."""
-    numbers = [integer(place, "pins", pin) for pin in listed(place, "pins", pins)]
+    numbers = [integer(caller, "pins", pin) for pin in listed(caller, "pins", pins)]
     for number in numbers:
         if number not in available:
             known = f"numbers from {min(available)} to {max(available)}"
             if len(available) <= max(available) - min(available):
                 some = ", ".join(map(str, list(available)[:9])) + ", ..." * (len(available) > 9)
                 known = f"{some}, those of this result"
-            raise ValueError(f"{place}: pins must be {known}, got {number}")
+            raise ValueError(f"{caller}: pins must be {known}, got {number}")
     return numbers
 
 

@@ -12,7 +12,7 @@ from .. import _core
 from ..systems.numbers import Floats, integer, link_arrays, mass_or_weight
 from ..systems.numbers import count as checked_count
 
-_PLACE = "revchain.conical_heights"
+_CALLER = "revchain.conical_heights"
 
 
 def conical_heights(
@@ -87,9 +87,9 @@ def conical_heights(
            [1.707, 0.293],
            [1.866, 0.134]])
     """
-    _, heavy = mass_or_weight(_PLACE, mass, weight)
+    _, heavy = mass_or_weight(_CALLER, mass, weight)
     arrays = link_arrays(
-        _PLACE,
+        _CALLER,
         weight=heavy,
         length=length,
         centroid=centroid,
@@ -100,14 +100,14 @@ def conical_heights(
         shape = np.broadcast_shapes(*(array.shape for array in arrays.values())) or (1,)
     except ValueError:
         shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
-        raise ValueError(f"{_PLACE}: these shapes do not go together: {shapes}") from None
+        raise ValueError(f"{_CALLER}: these shapes do not go together: {shapes}") from None
     *batch, size = shape
     return _core.conical_heights(
         batch,
         size,
         **{name: _table(array, tuple(batch)) for name, array in arrays.items()},
-        count=None if count is None else checked_count(_PLACE, "count", count),
-        threads=integer(_PLACE, "threads", threads),
+        count=None if count is None else checked_count(_CALLER, "count", count),
+        threads=integer(_CALLER, "threads", threads),
     )
 
 

@@ -97,11 +97,11 @@ def branch(
     >>> chair.birth, chair.tip_radius[[0, -1]].round(4)
     ('rest', array([1.0101, 4.9048]))
     """
-    place = "revchain.branch"
-    height, g, turns = _checked(place, system, min_conical_height, max_angular_speed, gravity, direction)
-    number, points = count(place, "mode", mode), count(place, "max_points", max_points)
-    step = one_positive(place, "max_step", max_step)
-    found: Any = _core.branch(compiled_system(place, system, g), number, height, points, step, g, turns)
+    caller = "revchain.branch"
+    height, g, turns = _checked(caller, system, min_conical_height, max_angular_speed, gravity, direction)
+    number, points = count(caller, "mode", mode), count(caller, "max_points", max_points)
+    step = one_positive(caller, "max_step", max_step)
+    found: Any = _core.branch(compiled_system(caller, system, g), number, height, points, step, g, turns)
     return branch_made(found, system, g, turns)
 
 
@@ -189,21 +189,21 @@ def branches(
     >>> round(float(diagram[1].angular_speed.min()), 4)
     2.2878
     """
-    place = "revchain.branches"
-    height, g, turns = _checked(place, system, min_conical_height, max_angular_speed, gravity, direction)
-    most = limit(place, "budget", budget)
-    found: Any = _core.branches(compiled_system(place, system, g), height, LISTS, most, most // 3, g, turns)
+    caller = "revchain.branches"
+    height, g, turns = _checked(caller, system, min_conical_height, max_angular_speed, gravity, direction)
+    most = limit(caller, "budget", budget)
+    found: Any = _core.branches(compiled_system(caller, system, g), height, LISTS, most, most // 3, g, turns)
     return branches_made(found, system, g, turns)
 
 
 def _checked(
-    place: str, system: Any, height: float | None, speed: float | None, gravity: float, direction: int
+    caller: str, system: Any, height: float | None, speed: float | None, gravity: float, direction: int
 ) -> tuple[float, float, int]:
     """The lowest conical height, gravity and direction."""
     if not isinstance(system, System):
-        raise no_system(place, system)
-    least = height_of(place, height, speed, gravity, "min_conical_height", "max_angular_speed")
-    g, turns = one_positive(place, "gravity", gravity), rotation(place, direction)
+        raise no_system(caller, system)
+    least = height_of(caller, height, speed, gravity, "min_conical_height", "max_angular_speed")
+    g, turns = one_positive(caller, "gravity", gravity), rotation(caller, direction)
     if isinstance(system, Held):
-        require_span(place, system)
+        require_span(caller, system)
     return least, g, turns

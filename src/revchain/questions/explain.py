@@ -59,15 +59,15 @@ def explain(
     >>> rc.explain(rc.Chain(weight=[1.0, 3.0, 2.0], length=1.0), rtol=1e-3).chosen.name
     'aberth'
     """
-    place = "revchain.explain"
-    start = checked_count(place, "first", first)
-    tolerance = 0.0 if rtol is None else real(place, "rtol", rtol)
+    caller = "revchain.explain"
+    start = checked_count(caller, "first", first)
+    tolerance = 0.0 if rtol is None else real(caller, "rtol", rtol)
     if not tolerance >= 0:
-        raise ValueError(f"{place}: rtol must not be negative or NaN, got {tolerance}")
+        raise ValueError(f"{caller}: rtol must not be negative or NaN, got {tolerance}")
     of: Any = system
     if getattr(system, "_kind", "") == "chain":
-        core = compiled(place, of, link_by_link=False)
-        n = _how_many(place, count, start, core.mode_count)
+        core = compiled(caller, of, link_by_link=False)
+        n = _how_many(caller, count, start, core.mode_count)
         rows, chosen, met = _core.select(core, start, n, tolerance, 0.0, None)
         estimates = tuple(
             (name, reason is None, reason or "", bound, cost, i == chosen and reason is None)
@@ -76,29 +76,29 @@ def explain(
         )
         return Explanation._made(None, estimates=estimates, meets_tolerance=met, rtol=tolerance)
     if not isinstance(system, System):
-        raise no_system(place, system)
+        raise no_system(caller, system)
     if system._kind == "rig":
-        n = min(count_of(place, count, 10) or 2 * system.size, 2 * system.size)
+        n = min(count_of(caller, count, 10) or 2 * system.size, 2 * system.size)
     else:
         if system._is_held:
-            straight(place, of, STANDARD_GRAVITY)
-        n = _how_many(place, count, start, system.mode_count)
-    return _only(*_method(place, system, start, n), tolerance)
+            straight(caller, of, STANDARD_GRAVITY)
+        n = _how_many(caller, count, start, system.mode_count)
+    return _only(*_method(caller, system, start, n), tolerance)
 
 
-def _how_many(place: str, count: Any, first: int, most: int | None) -> int:
+def _how_many(caller: str, count: Any, first: int, most: int | None) -> int:
     """The number of modes asked for; `most` exist, or infinitely many if it is None."""
     if most is None:
         if isinstance(count, str) and count == "all":
-            raise ValueError(f"{place}: a cord has infinitely many modes; give count")
-        return count_of(place, count, 10) or 10
-    n = how_many(place, count, first, most)
+            raise ValueError(f"{caller}: a cord has infinitely many modes; give count")
+        return count_of(caller, count, 10) or 10
+    n = how_many(caller, count, first, most)
     if first - 1 + n > most:
-        raise ValueError(f"{place}: there {'is 1 mode' if most == 1 else f'are {most} modes'}, got first = {first} and count = {n}")
+        raise ValueError(f"{caller}: there {'is 1 mode' if most == 1 else f'are {most} modes'}, got first = {first} and count = {n}")
     return n
 
 
-def _method(place: str, system: Any, first: int, count: int) -> tuple[str, float, float]:
+def _method(caller: str, system: Any, first: int, count: int) -> tuple[str, float, float]:
     """The only method, its error bound as measured, and its time."""
     if system._kind == "rig":
         spinning = system.has_momentum

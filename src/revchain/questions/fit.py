@@ -26,7 +26,7 @@ from .modes import straight
 from .refuse import no_system
 from .speeds import Speeds, speeds
 
-_PLACE = "revchain.fit"
+_CALLER = "revchain.fit"
 _FORM = '{1: (3.21, 0.02)}, {1: "0.5 Hz"} or {1: ["10.9 s", "1 %"]}'
 _SINGULAR = 1e-8  # of the largest singular value: a smaller one belongs to a combination that is undetermined
 _EFFECT = 1e-9  # smallest relative effect on a speed of a relative change of 1 of a datum
@@ -102,29 +102,29 @@ def fit(
     (('links[0].mass', 'links[1].mass'),)
     """
     if not isinstance(system, System):
-        raise no_system(_PLACE, system)
+        raise no_system(_CALLER, system)
     of: Any = system
-    g = one_positive(_PLACE, "gravity", gravity)
+    g = one_positive(_CALLER, "gravity", gravity)
     if system._is_held and of.span is not None:
         raise ValueError(
-            f"{_PLACE}: a system held at a span is bent and has no critical speeds; tune with top_tension finds one datum for "
+            f"{_CALLER}: a system held at a span is bent and has no critical speeds; tune with top_tension finds one datum for "
             "a speed and a tension"
         )
     if system._is_held:
-        straight(_PLACE, of, g)
+        straight(_CALLER, of, g)
     paths, starts = _varied(vary)
     number, speed, deviation = _measurements(measured)
     if len(paths) > len(number):
         raise ValueError(
-            f"{_PLACE}: vary has {len(paths)} data for {len(number)} measured speed{'s' * (len(number) > 1)}; vary at most "
+            f"{_CALLER}: vary has {len(paths)} data for {len(number)} measured speed{'s' * (len(number) > 1)}; vary at most "
             f"{len(number)}, or measure more modes"
         )
-    data = [read(_PLACE, system, path, g) for path in paths]
-    refuse_overlap(_PLACE, paths)
+    data = [read(_CALLER, system, path, g) for path in paths]
+    refuse_overlap(_CALLER, paths)
     turns = system.has_momentum or any("flywheels" in path for path in paths)
     if (number < 0).any() and not turns:
         raise ValueError(
-            f"{_PLACE}: measured: modes are counted from 1; only a rig with flywheels has backward modes, -1 the slowest, "
+            f"{_CALLER}: measured: modes are counted from 1; only a rig with flywheels has backward modes, -1 the slowest, "
             f"got {number.min()}"
         )
     model = _Model(system, data, number, speed, np.abs(speed if deviation is None else deviation), g)
@@ -149,8 +149,8 @@ class _Model:
         if self.kept[0] != free.tobytes():
             system = self.system
             for datum, value in zip(self.data, self.values(free), strict=True):
-                system = read(_PLACE, system, datum.path, self.gravity).change(float(value))
-            self.kept = (free.tobytes(), (system, speeds(_PLACE, system, self.number, self.gravity)))
+                system = read(_CALLER, system, datum.path, self.gravity).change(float(value))
+            self.kept = (free.tobytes(), (system, speeds(_CALLER, system, self.number, self.gravity)))
         found: tuple[Any, Speeds] = self.kept[1]
         return found
 
@@ -199,7 +199,7 @@ class _Model:
 def _least(model: _Model, start: Floats) -> tuple[Floats, bool, _Known]:
     """The minimum, whether it was reached, and what the data there are known to; undetermined data keep their start."""
     model.at(start)  # raises the errors of the start
-    optimize, hold = require("scipy.optimize", "fit", _PLACE), np.empty((0, len(start)))
+    optimize, hold = require("scipy.optimize", "fit", _CALLER), np.empty((0, len(start)))
     for _ in range(2):
         found = optimize.least_squares(
             lambda free, hold=hold: np.append(model.off(free), hold @ (free - start)),
@@ -302,17 +302,17 @@ def _bounded(datum: Datum, free: float) -> float:
 
 def _start(datum: Datum, given: Any) -> float:
     """The variable that stands for the start value of a datum."""
-    value = datum.present if given is None else real(_PLACE, f"{datum.quantity} (start of {datum.path})", given)
+    value = datum.present if given is None else real(_CALLER, f"{datum.quantity} (start of {datum.path})", given)
     if datum.floor is None and math.isfinite(value):
         return value / datum.typical
     if datum.floor is not None and datum.floor < value < math.inf:
         return math.log(value - datum.floor)
     if given is None:
         raise ValueError(
-            f"{_PLACE}: {datum.path} is {value:g}: give a start value, as in vary={{\"{datum.path}\": {datum.typical:.3g}}}"
+            f"{_CALLER}: {datum.path} is {value:g}: give a start value, as in vary={{\"{datum.path}\": {datum.typical:.3g}}}"
         )
     limit = "finite" if datum.floor is None else f"finite and more than {datum.floor:.6g}"
-    raise ValueError(f"{_PLACE}: the start of {datum.path} must be {limit}, got {value:g}")
+    raise ValueError(f"{_CALLER}: the start of {datum.path} must be {limit}, got {value:g}")
 
 
 def _varied(vary: Any) -> tuple[list[Any], list[Any]]:
@@ -327,7 +327,7 @@ def _varied(vary: Any) -> tuple[list[Any], list[Any]]:
             paths = list(vary) if isinstance(vary, Iterable) and not isinstance(vary, bytes) else []
     if not paths:
         such = '["length", "links[0].mass"]'
-        raise ValueError(f"{_PLACE}: vary must be a path or a list of paths such as {such}, got {shown(vary)}")
+        raise ValueError(f"{_CALLER}: vary must be a path or a list of paths such as {such}, got {shown(vary)}")
     return paths, list(vary.values()) if isinstance(vary, Mapping) else [None] * len(paths)
 
 
@@ -335,18 +335,18 @@ def _measurements(measured: Any) -> tuple[Whole, Floats, Floats | None]:
     """Mode numbers, speeds (negative for backward modes) and their standard uncertainties, None if not given."""
     if not isinstance(measured, Mapping) or not measured:
         such = f"a dictionary of speeds by mode number such as {_FORM}"
-        raise ValueError(f"{_PLACE}: measured must be {such}, got {shown(measured)}")
+        raise ValueError(f"{_CALLER}: measured must be {such}, got {shown(measured)}")
     numbers, found = [], []
     for key, value in measured.items():
-        number = integer(_PLACE, "measured: each mode number", key)
+        number = integer(_CALLER, "measured: each mode number", key)
         if number == 0:
-            raise ValueError(f"{_PLACE}: measured: modes are counted from 1, got 0")
+            raise ValueError(f"{_CALLER}: measured: modes are counted from 1, got 0")
         numbers.append(number)
         found.append(_measurement(number, unpacked(value)))
     bare = [number for number, (_, spread) in zip(numbers, found, strict=True) if spread is None]
     if bare and len(bare) < len(found):
         raise ValueError(
-            f"{_PLACE}: measured[{bare[0]}] has no uncertainty, and others have; give that of all, as in {_FORM}, or of none"
+            f"{_CALLER}: measured[{bare[0]}] has no uncertainty, and others have; give that of all, as in {_FORM}, or of none"
         )
     speed = np.array([np.sign(k) * x for k, (x, _) in zip(numbers, found, strict=True)])
     return np.array(numbers), speed, None if bare else np.array([spread for _, spread in found])
@@ -354,45 +354,45 @@ def _measurements(measured: Any) -> tuple[Whole, Floats, Floats | None]:
 
 def _measurement(number: int, value: Any) -> tuple[float, float | None]:
     """A speed and its uncertainty, both positive, in rad/s."""
-    place, spread = f"{_PLACE}: measured[{number}]", None
+    caller, spread = f"{_CALLER}: measured[{number}]", None
     if isinstance(value, np.ndarray):
         value = value.tolist()
     if isinstance(value, list | tuple):
         if len(value) != 2:
-            raise ValueError(f"{place} must be a speed, or a pair of it and its uncertainty, as in {_FORM}, got {shown(value)}")
+            raise ValueError(f"{caller} must be a speed, or a pair of it and its uncertainty, as in {_FORM}, got {shown(value)}")
         value, spread = value
-    size, is_period = _speed_or_period(place, "speed", value)
+    size, is_period = _speed_or_period(caller, "speed", value)
     size = -size if number < 0 and not is_period else size
     if not 0 < abs(size) < math.inf or (size < 0 and number > 0):
-        raise ValueError(f"{place}: speed must be positive and finite, got {shown(value)}")
+        raise ValueError(f"{caller}: speed must be positive and finite, got {shown(value)}")
     size = abs(size)
     speed = 2 * math.pi / size if is_period else size
     if spread is None:
         return speed, None
     if isinstance(spread, str) and spread.strip().endswith("%"):
-        part = real(place, "rtol (the uncertainty)", spread)
+        part = real(caller, "rtol (the uncertainty)", spread)
     else:
-        deviation, as_period = _speed_or_period(place, "uncertainty", spread)
+        deviation, as_period = _speed_or_period(caller, "uncertainty", spread)
         if are_there(value) != are_there(spread) or as_period != is_period:
-            raise ValueError(f'{place}: give speed and uncertainty in the same unit, or "1 %", got {shown((value, spread))}')
+            raise ValueError(f'{caller}: give speed and uncertainty in the same unit, or "1 %", got {shown((value, spread))}')
         part = deviation / size
     if not 0 < part < math.inf:
         raise ValueError(
-            f"{place}: uncertainty must be positive and finite, got {shown(spread)}; leave out those of all speeds if none "
+            f"{caller}: uncertainty must be positive and finite, got {shown(spread)}; leave out those of all speeds if none "
             "is known"
         )
     if not 1 / _EXTREME <= part <= _EXTREME:
         raise ValueError(
-            f"{place}: uncertainty must be from {1 / _EXTREME:g} to {_EXTREME:g} times the measured value, got {shown(spread)}"
+            f"{caller}: uncertainty must be from {1 / _EXTREME:g} to {_EXTREME:g} times the measured value, got {shown(spread)}"
         )
     return speed, part * speed
 
 
-def _speed_or_period(place: str, name: str, value: Any) -> tuple[float, bool]:
+def _speed_or_period(caller: str, name: str, value: Any) -> tuple[float, bool]:
     """A number in rad/s or, where its unit is that of a time, in s."""
     if are_there(value):
         try:
-            return float(in_si(place, "period", value)), True
+            return float(in_si(caller, "period", value)), True
         except (ValueError, TypeError):
-            return real(place, "angular_speed", value), False
-    return real(place, name, value), False
+            return real(caller, "angular_speed", value), False
+    return real(caller, name, value), False

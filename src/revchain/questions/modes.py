@@ -154,7 +154,7 @@ FULL = 4.4432e-16  # 2 ulp: the bound of full accuracy in double
 METHODS = tuple(name for name in dict.fromkeys((*_core.METHODS[1:], *_core.MODELS)) if name != "finite amplitude")
 _DEFAULTS: dict[str, Any] = {"conical_height": None, "angular_speed": None, "rtol": None, "method": None}
 _DEFAULTS |= {"precision": "double", "certify": False}
-_PLACE = "revchain.modes"
+_CALLER = "revchain.modes"
 
 
 class _Asked(NamedTuple):
@@ -181,7 +181,7 @@ class _Asked(NamedTuple):
         for name in names.split():
             value, default = getattr(self, name), _DEFAULTS[name]
             if value is not default and not (isinstance(value, str) and value == default):
-                raise ValueError(f"{_PLACE}: {name} {reason}, got {shown(value)}")
+                raise ValueError(f"{_CALLER}: {name} {reason}, got {shown(value)}")
 
 
 def find_modes(
@@ -200,9 +200,9 @@ def find_modes(
     progress: _core.Progress | None = None,
 ) -> Modes:
     """`modes` with `progress`, which another thread can read, and with which it can cancel."""
-    g = gravity if type(gravity) is float and 0 < gravity < 1e300 else one_positive(_PLACE, "gravity", gravity)
-    start = first if type(first) is int and first == 1 else checked_count(_PLACE, "first", first)
-    shared = threads if type(threads) is int and threads == 1 else integer(_PLACE, "threads", threads)
+    g = gravity if type(gravity) is float and 0 < gravity < 1e300 else one_positive(_CALLER, "gravity", gravity)
+    start = first if type(first) is int and first == 1 else checked_count(_CALLER, "first", first)
+    shared = threads if type(threads) is int and threads == 1 else integer(_CALLER, "threads", threads)
     heights = window = None
     if conical_height is not None or angular_speed is not None:
         _refuse_two_choices(conical_height, angular_speed, count, start)
@@ -211,29 +211,29 @@ def find_modes(
         else:
             window = _window("angular_speed", angular_speed)
     if rtol is not None:
-        rtol = real(_PLACE, "rtol", rtol)
+        rtol = real(_CALLER, "rtol", rtol)
     if certify is not False:
-        certify = boolean(_PLACE, "certify", certify)
+        certify = boolean(_CALLER, "certify", certify)
     find = _FIND.get(getattr(system, "_kind", ""))
     if find is None:
-        raise no_system(_PLACE, system)
+        raise no_system(_CALLER, system)
     return find(system, _Asked(count, start, heights, window, rtol, g, method, precision, certify, shared, progress))
 
 
 def _of_chain(chain: Chain, asked: _Asked) -> Modes:
     count, first, heights, _, rtol, g, method, precision, certify, threads, progress = asked
-    core, speeds = compiled(_PLACE, chain), asked.speeds_and_gravity
+    core, speeds = compiled(_CALLER, chain), asked.speeds_and_gravity
     wanted: int | None = None
     if heights is None and speeds is None:
-        wanted = how_many(_PLACE, count, first, core.mode_count)
+        wanted = how_many(_CALLER, count, first, core.mode_count)
     if precision is not _DOUBLE:
-        checked_word(_PLACE, "precision", precision, _core.PRECISIONS, "; float is for C++ alone")
+        checked_word(_CALLER, "precision", precision, _core.PRECISIONS, "; float is for C++ alone")
     if rtol is not None and 0 < rtol <= FULL and method is None and wanted and precision == "double" and not certify:
         method = "double-double"  # no method in double keeps it
     if method is not None and not (isinstance(method, str) and method in _core.METHODS[1:]):
-        checked_word(_PLACE, "method", method, METHODS)
+        checked_word(_CALLER, "method", method, METHODS)
         if wanted is None or precision != "double" or certify:
-            raise ValueError(f"{_PLACE}: method {method!r} goes with count, first and rtol alone")
+            raise ValueError(f"{_CALLER}: method {method!r} goes with count, first and rtol alone")
         tolerance = FULL / 2 if method == "double-double" and rtol is None else rtol or 0.0
         return _by_model(_core.solve_by(core, first, wanted, tolerance, 0.0, method), chain, g, rtol, first)
     way = method or "auto"
@@ -244,11 +244,11 @@ def _of_chain(chain: Chain, asked: _Asked) -> Modes:
 def _of_rig(rig: Rig, asked: _Asked) -> Modes:
     asked.refuse("method precision", "is for a Chain; a Rig has one method, in double")
     count, first, heights, speeds, rtol, g, _, _, certify, threads, progress = asked
-    many = count_of(_PLACE, count, 10)
+    many = count_of(_CALLER, count, 10)
     core = _core.rig_modes(rig._under(g), first, many, heights, speeds, rtol, certify, g, progress, threads)
     found = Modes._made(core, system=rig, gravity=g, rtol=rtol)
     if first > (most := max(1, *core.available)):
-        raise ValueError(f"{_PLACE}: first must be from 1 to {most}, the number of modes in a direction, got {first}")
+        raise ValueError(f"{_CALLER}: first must be from 1 to {most}, the number of modes in a direction, got {first}")
     return found
 
 
@@ -262,7 +262,7 @@ def _of_cord(cord: Cord, asked: _Asked) -> Modes:
 
 def _of_held_cord(held: Held, asked: _Asked) -> Modes:
     asked.refuse("method precision certify", "is for a Chain that hangs")
-    core: Any = straight(_PLACE, held, asked.gravity)
+    core: Any = straight(_CALLER, held, asked.gravity)
     wanted, g, rtol = _of_infinitely_many(asked), asked.gravity, asked.rtol
     found = _core.held_modes(
         core, asked.first, wanted, asked.heights, asked.speeds_and_gravity, rtol, asked.progress, g
@@ -273,9 +273,9 @@ def _of_held_cord(held: Held, asked: _Asked) -> Modes:
 def _of_held_chain(held: Held, asked: _Asked) -> Modes:
     asked.refuse("method precision", "is for a Chain that hangs")
     count, first, heights, speeds, rtol, g, _, _, certify, _, progress = asked
-    core: Any = straight(_PLACE, held, g)
+    core: Any = straight(_CALLER, held, g)
     default = max(min(10, (held.mode_count or 0) - first + 1), 1)
-    wanted = None if heights or speeds else count_of(_PLACE, count, default, each=24)
+    wanted = None if heights or speeds else count_of(_CALLER, count, default, each=24)
     found = _core.held_modes(
         core, first, wanted, heights, asked.speeds_and_gravity, rtol, certify, progress, g
     )
@@ -289,15 +289,15 @@ _FIND: dict[str, Callable[[Any, _Asked], Modes]] = {
 
 def _of_infinitely_many(asked: _Asked) -> int | None:
     if asked.many == "all":
-        raise ValueError(f"{_PLACE}: a cord has infinitely many modes; give count, or a window that ends")
-    return None if asked.heights or asked.speeds else count_of(_PLACE, asked.many, 10, each=24)
+        raise ValueError(f"{_CALLER}: a cord has infinitely many modes; give count, or a window that ends")
+    return None if asked.heights or asked.speeds else count_of(_CALLER, asked.many, 10, each=24)
 
 
 def _refuse_two_choices(height: Any, speed: Any, count: Any, first: int) -> None:
     given = {"conical_height": height is not None, "angular_speed": speed is not None}
     named = [name for name, there in {**given, "count": count is not None, "first": first != 1}.items() if there]
     if len(named) > 1:
-        raise ValueError(f"{_PLACE}: give one window, or count and first, not both, got {' and '.join(named)}")
+        raise ValueError(f"{_CALLER}: give one window, or count and first, not both, got {' and '.join(named)}")
 
 
 def _by_model(found: tuple[Any, ...], chain: Chain, gravity: float, rtol: float | None, first: int) -> Modes:
@@ -312,46 +312,46 @@ def _by_model(found: tuple[Any, ...], chain: Chain, gravity: float, rtol: float 
     return Modes._made(None, system=chain, gravity=gravity, rtol=rtol, **given)
 
 
-def straight(place: str, held: Held, gravity: float) -> _core.Held | _core.HeldCord:
+def straight(caller: str, held: Held, gravity: float) -> _core.Held | _core.HeldCord:
     """The compiled system of a chain or cord that a tension holds straight; a ValueError if it is not so held."""
     if held.span is not None:
         raise ValueError(
-            f"{place}: a chain or cord held at a span is bent and has no critical speeds; use steady_shapes, and the stability "
+            f"{caller}: a chain or cord held at a span is bent and has no critical speeds; use steady_shapes, and the stability "
             f"of a shape, got span {held.span:g}"
         )
     least = 0.0 if held.weightless else held._force(gravity) * held._total
     if held.tension is not None and not held.tension > least:
         raise ValueError(
-            f"{place}: tension at the upper end must exceed the weight {least:.6g}, or the lower part is slack, got "
+            f"{caller}: tension at the upper end must exceed the weight {least:.6g}, or the lower part is slack, got "
             f"{held.tension:g}"
         )
     return held._under(gravity)
 
 
-def how_many(place: str, count: int | str | None, first: int, most: int) -> int:
+def how_many(caller: str, count: int | str | None, first: int, most: int) -> int:
     """The number of modes asked for out of `most`: ten by default, at most all from `first` on."""
     left = max(most - first + 1, 1)
-    return count_of(place, count, min(10, left)) or left
+    return count_of(caller, count, min(10, left)) or left
 
 
-def count_of(place: str, count: int | str | None, default: int, each: int = 0) -> int | None:
+def count_of(caller: str, count: int | str | None, default: int, each: int = 0) -> int | None:
     """The checked count, of results of `each` bytes; None for all."""
     if count is None:
         return default
     if isinstance(count, str):
         if count != "all":
-            raise ValueError(f'{place}: count must be a number or "all", got {shown(count)}')
+            raise ValueError(f'{caller}: count must be a number or "all", got {shown(count)}')
         return None
-    return checked_count(place, "count", count, each)
+    return checked_count(caller, "count", count, each)
 
 
 def _window(name: str, window: object) -> Pair:
     """The two ends of a window; their order is checked where it is used."""
     if isinstance(window, str | set | dict) or not isinstance(window, Iterable) or getattr(window, "ndim", 1) == 0:
-        raise ValueError(f"{_PLACE}: {name} must be a pair (low, high), got {shown(window)}")
-    ends = [real(_PLACE, f"{name} (each end)", end) for end in window]
+        raise ValueError(f"{_CALLER}: {name} must be a pair (low, high), got {shown(window)}")
+    ends = [real(_CALLER, f"{name} (each end)", end) for end in window]
     if len(ends) != 2:
-        raise ValueError(f"{_PLACE}: {name} must be a pair (low, high), got {shown(window)}")
+        raise ValueError(f"{_CALLER}: {name} must be a pair (low, high), got {shown(window)}")
     return ends[0], ends[1]
 
 
@@ -409,29 +409,29 @@ def count_modes(
     >>> rc.count_modes(top, angular_speed=[3.0, -3.0])
     array([0, 1])
     """
-    place = "revchain.count_modes"
+    caller = "revchain.count_modes"
     if (conical_height is None) == (angular_speed is None):
-        raise ValueError(f"{place}: give either conical_height or angular_speed")
+        raise ValueError(f"{caller}: give either conical_height or angular_speed")
     kind = getattr(system, "_kind", None)
     if kind not in _FIND:
-        raise no_system(place, system)
+        raise no_system(caller, system)
     of: Any = system
     height: Any = conical_height
-    speed: Any = None if angular_speed is None else floats(place, "angular_speed", angular_speed)
+    speed: Any = None if angular_speed is None else floats(caller, "angular_speed", angular_speed)
     if kind == "chain":
-        core, g = compiled(place, of), positive(place, "gravity", gravity)
+        core, g = compiled(caller, of), positive(caller, "gravity", gravity)
         if speed is None:
-            return _core.count_modes(core, floats(place, "conical_height", height))[()]
-        return _core.count_modes_at_speed(core, *together(place, angular_speed=speed, gravity=g))[()]
-    one = one_positive(place, "gravity", gravity)
+            return _core.count_modes(core, floats(caller, "conical_height", height))[()]
+        return _core.count_modes_at_speed(core, *together(caller, angular_speed=speed, gravity=g))[()]
+    one = one_positive(caller, "gravity", gravity)
     if kind == "rig" and speed is not None:
         return _core.count_rig_modes(of._under(one), speed, False, one)[()]
-    height = positive(place, "conical_height", height) if speed is None else one / positive(place, "angular_speed", speed) ** 2
+    height = positive(caller, "conical_height", height) if speed is None else one / positive(caller, "angular_speed", speed) ** 2
     if kind == "rig":
         return _core.count_rig_modes(of._under(one), height, True, one)[()]
     if kind == "cord":
         return _core.count_cord_modes(of._under(one), height)[()]
-    return _core.count_held_modes(straight(place, of, one), height, one)[()]
+    return _core.count_held_modes(straight(caller, of, one), height, one)[()]
 
 
 def recurrence_matrices(chain: Chain) -> tuple[Floats, Floats]:

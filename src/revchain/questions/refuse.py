@@ -8,12 +8,12 @@ from typing import Any
 from ..systems.numbers import shown
 
 
-def no_system(place: str, system: Any) -> TypeError:
+def no_system(caller: str, system: Any) -> TypeError:
     """The error for an argument that is not a system, in a question that all systems answer."""
-    return TypeError(f"{place}: system must be a revchain.Chain, Rig, Cord or Held, got {shown(system)}")
+    return TypeError(f"{caller}: system must be a revchain.Chain, Rig, Cord or Held, got {shown(system)}")
 
 
-def refuse_other(place: str, system: Any, kinds: tuple[str, ...], instead: dict[str, str]) -> None:
+def refuse_other(caller: str, system: Any, kinds: tuple[str, ...], instead: dict[str, str]) -> None:
     """Raise a ValueError for a system without an answer, with the question to ask instead; a TypeError for no system.
 
     `kinds` are first words of kinds of systems that have an answer; `instead` has the others.
@@ -22,6 +22,6 @@ def refuse_other(place: str, system: Any, kinds: tuple[str, ...], instead: dict[
     if kind in kinds:
         return
     if kind:
-        raise ValueError(f"{place}: is not available for a {type(system).__name__}; {instead[kind]}")
+        raise ValueError(f"{caller}: is not available for a {type(system).__name__}; {instead[kind]}")
     names = " or ".join(each.capitalize() for each in kinds)
-    raise TypeError(f"{place}: system must be a revchain.{names}, got {shown(system)}")
+    raise TypeError(f"{caller}: system must be a revchain.{names}, got {shown(system)}")

@@ -96,35 +96,35 @@ def response(
     >>> round(float(hand.offset), 4), int(hand.modes_below)
     (0.1786, 0)
     """
-    place = "revchain.response"
+    caller = "revchain.response"
     own = 1.0
-    refuse_other(place, system, ("chain", "rig"), {"cord": "use its chain: cord.chain(100)", "held": "use steady_shapes"})
+    refuse_other(caller, system, ("chain", "rig"), {"cord": "use its chain: cord.chain(100)", "held": "use steady_shapes"})
     either_sense = system.has_momentum
     if system._support is not None:
         own = system._support.radius or 1.0
     if (conical_height is None) == (angular_speed is None):
-        raise ValueError(f"{place}: give either conical_height or angular_speed")
-    g = float(positive(place, "gravity", real(place, "gravity", gravity)))
+        raise ValueError(f"{caller}: give either conical_height or angular_speed")
+    g = float(positive(caller, "gravity", real(caller, "gravity", gravity)))
     radius = own
     if support_radius is not None:
-        radius = float(positive(place, "support_radius", real(place, "support_radius", support_radius)))
+        radius = float(positive(caller, "support_radius", real(caller, "support_radius", support_radius)))
     if angular_speed is None:
         assert conical_height is not None
-        given = positive(place, "conical_height", conical_height)
+        given = positive(caller, "conical_height", conical_height)
         height, speed = given, np.asarray(_core.conical_pendulum_angular_speed(given, np.full(given.shape, g)))
     else:
-        given = floats(place, "angular_speed", angular_speed)
+        given = floats(caller, "angular_speed", angular_speed)
         if either_sense:
             wrong = ~((given != 0) & np.isfinite(given))
-            refuse_where(wrong, given, f"{place}: angular_speed must be finite and not 0")
+            refuse_where(wrong, given, f"{caller}: angular_speed must be finite and not 0")
         else:
-            positive(place, "angular_speed", given)
+            positive(caller, "angular_speed", given)
         height, speed = np.asarray(_core.conical_pendulum_height(np.abs(given), np.full(given.shape, g))), given
-    which, axis = _pins(place, pins, system.size)
-    asked = (given.reshape(-1), angular_speed is not None, radius, which.reshape(-1), g, integer(place, "threads", threads))
+    which, axis = _pins(caller, pins, system.size)
+    asked = (given.reshape(-1), angular_speed is not None, radius, which.reshape(-1), g, integer(caller, "threads", threads))
     respond: Any = _core.rig_response if system._kind == "rig" else _core.response
     of: Any = system
-    core: Any = compiled(place, of) if system._kind == "chain" else system._under(g)
+    core: Any = compiled(caller, of) if system._kind == "chain" else system._under(g)
     found = respond(core, *asked)
     offset, bound, below, against, resonant, force, force_error = found
     shape = given.shape
@@ -146,17 +146,17 @@ def response(
     )
 
 
-def _pins(place: str, pins: ArrayLike | None, size: int) -> tuple[Whole, tuple[int, ...]]:
+def _pins(caller: str, pins: ArrayLike | None, size: int) -> tuple[Whole, tuple[int, ...]]:
     """Numbers of the pins asked for, and the shape of their axis."""
     if pins is None:
         return np.arange(size + 1), (size + 1,)
     asked = array_of(pins)
     if asked.dtype.kind not in "iu" and asked.size:
-        raise ValueError(f"{place}: pins must be whole numbers, got {shown(pins)}")
+        raise ValueError(f"{caller}: pins must be whole numbers, got {shown(pins)}")
     if asked.ndim > 1:
-        raise ValueError(f"{place}: pins must be one number or a list of them, got an array of shape {asked.shape}")
+        raise ValueError(f"{caller}: pins must be one number or a list of them, got an array of shape {asked.shape}")
     asked = asked.astype(np.int64)
     wrong = (asked < -(size + 1)) | (asked > size)
     if wrong.any():
-        raise ValueError(f"{place}: pins must be numbers from 0 to {size}, got {asked[wrong].flat[0]}")
+        raise ValueError(f"{caller}: pins must be numbers from 0 to {size}, got {asked[wrong].flat[0]}")
     return np.where(asked < 0, asked + size + 1, asked), asked.shape

@@ -184,15 +184,15 @@ def steady_shapes(
     >>> [round(float(shape.offset.max()), 4) for shape in rc.steady_shapes(rope, conical_height=0.05, max_half_waves=2)]
     [0.402, 0.2013]
     """
-    place = "revchain.steady_shapes"
+    caller = "revchain.steady_shapes"
     if not isinstance(system, System):
-        raise no_system(place, system)
+        raise no_system(caller, system)
     wanted = {"lowest_inclination": lowest_inclination, "tip_radius": tip_radius, "top_tension": top_tension}
-    turns = rotation(place, direction)
+    turns = rotation(caller, direction)
     if mode is not None:
-        name, value = exactly_one(place, conical_height=conical_height, angular_speed=angular_speed, **wanted)
-        g = one_positive(place, "gravity", gravity)
-        found = on_branch(place, system, mode, name, value, g, turns, min_conical_height, _core.shapes_on_branch)
+        name, value = exactly_one(caller, conical_height=conical_height, angular_speed=angular_speed, **wanted)
+        g = one_positive(caller, "gravity", gravity)
+        found = on_branch(caller, system, mode, name, value, g, turns, min_conical_height, _core.shapes_on_branch)
         searched = {"mode": mode, "complete": False, "hanging_only": False, "missing": ()}
         speed = dict.fromkeys(("conical_height", "angular_speed"))
         if name in speed:
@@ -202,20 +202,20 @@ def steady_shapes(
         return SteadyShapes._made(None, _items=items, system=system, gravity=g, **searched, **speed, **nothing)
     for name, given in (*wanted.items(), ("min_conical_height", min_conical_height)):
         if given is not None:
-            raise ValueError(f"{place}: {name} selects shapes of one branch; give mode, too, got {name}={shown(given)}")
+            raise ValueError(f"{caller}: {name} selects shapes of one branch; give mode, too, got {name}={shown(given)}")
     kind = next(kind for kind in BUDGET if isinstance(system, kind))
-    most = limit(place, "budget", BUDGET[kind] if budget is None else budget)
+    most = limit(caller, "budget", BUDGET[kind] if budget is None else budget)
     if kind is Cord and not 1 <= most <= 10**6:
-        raise ValueError(f"{place}: budget must be from 1 to 1000000 offsets of the free end of a cord, got {most}")
-    hanging = boolean(place, "hanging_only", hanging_only)
-    waves = counted(place, "max_half_waves", max_half_waves)
+        raise ValueError(f"{caller}: budget must be from 1 to 1000000 offsets of the free end of a cord, got {most}")
+    hanging = boolean(caller, "hanging_only", hanging_only)
+    waves = counted(caller, "max_half_waves", max_half_waves)
     if waves > MOST_HALF_WAVES:
-        raise ValueError(f"{place}: max_half_waves must be at most {MOST_HALF_WAVES}, got {waves}")
-    proved = boolean(place, "prove", prove)
-    shared = integer(place, "threads", threads)
-    g, height, speed_ = _turning(place, system, conical_height, angular_speed, gravity)
+        raise ValueError(f"{caller}: max_half_waves must be at most {MOST_HALF_WAVES}, got {waves}")
+    proved = boolean(caller, "prove", prove)
+    shared = integer(caller, "threads", threads)
+    g, height, speed_ = _turning(caller, system, conical_height, angular_speed, gravity)
     # of the two numbers for one speed the core gets the one that was given; a cord the height
-    of_core, by_height = compiled_system(place, system, g), kind is Cord or conical_height is not None
+    of_core, by_height = compiled_system(caller, system, g), kind is Cord or conical_height is not None
     one, other = (height, None) if by_height else (None, speed_)
     found = _core.steady_shapes(of_core, one, other, g, turns, hanging, waves, proved, most, shared)
     limits = {"hanging_only": hanging and kind in (Chain, Rig), "conical_height": height, "angular_speed": speed_}
@@ -223,27 +223,27 @@ def steady_shapes(
 
 
 def _turning(
-    place: str, system: System, conical_height: float | None, angular_speed: float | None, gravity: float
+    caller: str, system: System, conical_height: float | None, angular_speed: float | None, gravity: float
 ) -> tuple[float, float, float]:
     """Return gravity, the conical height and the speed, of which the caller gives one."""
     if getattr(system, "weightless", False):
         if conical_height is not None:
             raise ValueError(
-                f"{place}: without gravity there is no conical height; give angular_speed, got {shown(conical_height)}"
+                f"{caller}: without gravity there is no conical height; give angular_speed, got {shown(conical_height)}"
             )
         if angular_speed is None:
-            raise ValueError(f"{place}: give angular_speed: without gravity tensions are as its square")
-        speed = one_positive(place, "angular_speed", angular_speed)
+            raise ValueError(f"{caller}: give angular_speed: without gravity tensions are as its square")
+        speed = one_positive(caller, "angular_speed", angular_speed)
         if not LEAST <= speed * speed <= MOST:
-            raise ValueError(f"{place}: angular_speed must have a square from {LEAST:g} to {MOST:g}, got {speed:g}")
+            raise ValueError(f"{caller}: angular_speed must have a square from {LEAST:g} to {MOST:g}, got {speed:g}")
         return 0.0, 0.0, speed
-    name, value = exactly_one(place, conical_height=conical_height, angular_speed=angular_speed)
-    g = one_positive(place, "gravity", gravity)
+    name, value = exactly_one(caller, conical_height=conical_height, angular_speed=angular_speed)
+    g = one_positive(caller, "gravity", gravity)
     height, speed = _height_and_speed(name, value, g)
     if isinstance(system, Cord):
-        one_positive(place, f"the conical height of {name}", height)
+        one_positive(caller, f"the conical height of {name}", height)
     if isinstance(system, Held) and not LEAST <= height <= MOST:
-        raise ValueError(f"{place}: {name} must give a conical height from {LEAST:g} to {MOST:g}, got {value:g}")
+        raise ValueError(f"{caller}: {name} must give a conical height from {LEAST:g} to {MOST:g}, got {value:g}")
     return g, height, speed
 
 
@@ -337,17 +337,17 @@ def steady_shape(
     >>> round(rc.steady_shape(carousel, tip_radius=2.5).angular_speed, 4)
     1.2597
     """
-    place = "revchain.steady_shape"
+    caller = "revchain.steady_shape"
     if not isinstance(system, System):
-        raise no_system(place, system)
+        raise no_system(caller, system)
     wanted = {"lowest_inclination": lowest_inclination, "tip_radius": tip_radius, "top_tension": top_tension}
-    name, value = exactly_one(place, conical_height=conical_height, angular_speed=angular_speed, **wanted)
-    g, turns = one_positive(place, "gravity", gravity), rotation(place, direction)
-    return shape_on_branch(place, system, mode, name, value, g, turns, min_conical_height)
+    name, value = exactly_one(caller, conical_height=conical_height, angular_speed=angular_speed, **wanted)
+    g, turns = one_positive(caller, "gravity", gravity), rotation(caller, direction)
+    return shape_on_branch(caller, system, mode, name, value, g, turns, min_conical_height)
 
 
 def shape_on_branch(
-    place: str,
+    caller: str,
     system: System,
     mode: int,
     name: str,
@@ -357,7 +357,7 @@ def shape_on_branch(
     lowest: float | None = None,
 ) -> SteadyShape:
     """The first shape on the branch of a mode with a number, such as ``angular_speed``; see `steady_shape`."""
-    found = on_branch(place, system, mode, name, value, gravity, direction, lowest, _core.steady_shape)
+    found = on_branch(caller, system, mode, name, value, gravity, direction, lowest, _core.steady_shape)
     speed = {}
     if hasattr(system, "span"):
         speed = {"angular_speed": value if name == "angular_speed" else float((gravity / found.conical_height) ** 0.5)}
@@ -365,7 +365,7 @@ def shape_on_branch(
 
 
 def on_branch(
-    place: str,
+    caller: str,
     system: System,
     mode: int,
     name: str,
@@ -376,22 +376,22 @@ def on_branch(
     question: Any,
 ) -> Any:
     """The compiled answer to a question about shapes on the branch of a mode."""
-    number = counted(place, "mode", mode)
+    number = counted(caller, "mode", mode)
     if held := isinstance(system, Held):
-        _check_held(place, system, number, name, value)
+        _check_held(caller, system, number, name, value)
         if question is not _core.steady_shape:
             what = "mode is not available for a Held; use branches for the shapes along a branch"
-            raise ValueError(f"{place}: {what}, got {mode}")
-    lowest = None if lowest is None else one_positive(place, "min_conical_height", lowest)
+            raise ValueError(f"{caller}: {what}, got {mode}")
+    lowest = None if lowest is None else one_positive(caller, "min_conical_height", lowest)
     force = value
     if name == "top_tension":
         unit = system._force(gravity)
         if isinstance(system, Chain | Cord) and not value > (least := unit * system._total):
             what = type(system).__name__.lower()
             what = f"top_tension must be more than the weight {least:.6g} of the {what}"
-            raise ValueError(f"{place}: {what}, got {value:g}")
+            raise ValueError(f"{caller}: {what}, got {value:g}")
         force /= unit
-    core = compiled_system(place, system, gravity)
+    core = compiled_system(caller, system, gravity)
     try:
         return question(core, number, name, force, gravity, direction, lowest)
     except ValueError as error:
@@ -400,43 +400,43 @@ def on_branch(
         if name != "top_tension" or not held:
             raise
         what = str(error).partition(": ")[2].rpartition(", got ")[0]  # the number there is the tension / gravity
-        raise ValueError(f"{place}: {what}; use branches for the tensions that it has, got {value:g}") from None
+        raise ValueError(f"{caller}: {what}; use branches for the tensions that it has, got {value:g}") from None
 
 
-def _check_held(place: str, held: Held, mode: int, name: str, value: float) -> None:
-    require_span(place, held)
+def _check_held(caller: str, held: Held, mode: int, name: str, value: float) -> None:
+    require_span(caller, held)
     if name not in ("conical_height", "angular_speed", "top_tension"):
         raise ValueError(
-            f"{place}: a held system has no free end; give conical_height, angular_speed or top_tension, got {name}"
+            f"{caller}: a held system has no free end; give conical_height, angular_speed or top_tension, got {name}"
         )
     most = max(held.size - 1, 1) * (1 if held.is_on_axis else 2)
     if held.size and mode > most:
-        raise ValueError(f"{place}: mode must be from 1 to {most}, got {mode}")
+        raise ValueError(f"{caller}: mode must be from 1 to {most}, got {mode}")
     if name == "top_tension" and not held.is_firm:
         raise ValueError(
-            f"{place}: top_tension is for firm ends; with springs give angular_speed, or read the speed from the "
+            f"{caller}: top_tension is for firm ends; with springs give angular_speed, or read the speed from the "
             f"top_tension of a branch, got {value:g}"
         )
 
 
-def require_span(place: str, held: Held) -> None:
+def require_span(caller: str, held: Held) -> None:
     """Raise a ValueError for a held system under a tension or without gravity: it has no branches."""
     if held.span is None:
         raise ValueError(
-            f"{place}: is for a system held at a span; under a tension use steady_shapes at a speed, or modes"
+            f"{caller}: is for a system held at a span; under a tension use steady_shapes at a speed, or modes"
         )
     if held.weightless:
         why = "a shape is the same at every speed" if held.is_firm else "there are no branches"
-        raise ValueError(f"{place}: without gravity {why}; use steady_shapes")
+        raise ValueError(f"{caller}: without gravity {why}; use steady_shapes")
 
 
-def rotation(place: str, direction: int) -> int:
+def rotation(caller: str, direction: int) -> int:
     """Return `direction`; raise a ValueError unless it is 1 or -1."""
-    if integer(place, "direction", direction) not in (1, -1):
-        raise ValueError(f"{place}: direction must be 1 or -1, got {shown(direction)}")
+    if integer(caller, "direction", direction) not in (1, -1):
+        raise ValueError(f"{caller}: direction must be 1 or -1, got {shown(direction)}")
     return int(direction)
 
 
-def compiled_system(place: str, system: System, gravity: float) -> Any:
+def compiled_system(caller: str, system: System, gravity: float) -> Any:
     """The compiled system; a ValueError for a chain of too many links."""
-    return compiled(place, system) if isinstance(system, Chain) else system._under(gravity)
+    return compiled(caller, system) if isinstance(system, Chain) else system._under(gravity)

@@ -19,7 +19,7 @@ from .refuse import refuse_other
 
 Start = ArrayLike | Callable[[float], float]
 CORD_MODES = 40  # default number of modes of a cord
-_PLACE = "revchain.swing"
+_CALLER = "revchain.swing"
 _IN_A_PLANE = (
     *("offset", "velocity", "angular_frequency", "energy", "shape", "cosine", "sine", "start", "projected"),
     *("energy_left_out", "truncation_error", "error_bound"),
@@ -122,13 +122,13 @@ def swing(
     >>> round(float(found.offset[1, 0]), 4), bool(found.truncation_error.max() < 1e-4)
     (-0.0959, True)
     """
-    refuse_other(_PLACE, system, ("chain", "rig", "cord"), {"held": "use its modes"})
-    times = floats(_PLACE, "time", time)
+    refuse_other(_CALLER, system, ("chain", "rig", "cord"), {"held": "use its modes"})
+    times = floats(_CALLER, "time", time)
     if times.ndim > 1:
-        raise ValueError(f"{_PLACE}: time must be a number or have one axis, got an array of shape {times.shape}")
-    refuse_where(~np.isfinite(times), times, f"{_PLACE}: time must be finite")
-    number = None if count is None else limit(_PLACE, "count", integer(_PLACE, "count", count))
-    g = one_positive(_PLACE, "gravity", gravity)
+        raise ValueError(f"{_CALLER}: time must be a number or have one axis, got an array of shape {times.shape}")
+    refuse_where(~np.isfinite(times), times, f"{_CALLER}: time must be finite")
+    number = None if count is None else limit(_CALLER, "count", integer(_CALLER, "count", count))
+    g = one_positive(_CALLER, "gravity", gravity)
     times = np.atleast_1d(times)
     arc: Floats | None = None
     of: Any = system
@@ -140,12 +140,12 @@ def swing(
         swung = _core.cord_swing(of._under(g), starts[0], starts[1], times, arc, many, g)
     else:
         if arc_length is not None:
-            raise ValueError(f"{_PLACE}: arc_length is for a Cord; a Chain has pins, leave it out, got {shown(arc_length)}")
+            raise ValueError(f"{_CALLER}: arc_length is for a Cord; a Chain has pins, leave it out, got {shown(arc_length)}")
         turns = system._kind == "rig" and of.has_momentum
         names = _TURNING if turns else _IN_A_PLANE
         ask: Any = _core.whirl_swing if turns else _core.swing if system._kind == "chain" else _core.rig_swing
         begin = [_start(name, given, system, turns) for name, given in (("offset", offset), ("velocity", velocity))]
-        swung = checked(_PLACE, system.by_mass, ask, system._under(g), *begin, times, number, g)
+        swung = checked(_CALLER, system.by_mass, ask, system._under(g), *begin, times, number, g)
     found: dict[str, Any] = dict(zip(names, swung, strict=True))
     if system.by_mass:
         found |= {name: g * found[name] for name in ("energy", "energy_left_out")}
@@ -160,18 +160,18 @@ def _start(name: str, value: Any, system: Any, turns: bool) -> Any:
     size = system.size
     array = array_of(np.zeros(size) if value is None else value)
     if array.dtype.kind != "c":
-        array = floats(_PLACE, name, np.zeros(size) if value is None else value)
+        array = floats(_CALLER, name, np.zeros(size) if value is None else value)
     elif not turns:
         raise ValueError(
-            f"{_PLACE}: {name} must be real: without momentum of flywheels the two horizontal directions are independent; solve "
+            f"{_CALLER}: {name} must be real: without momentum of flywheels the two horizontal directions are independent; solve "
             f"for each, got {shown(value)}"
         )
     if array.shape not in ((size,), (size + 1,)):
         raise ValueError(
-            f"{_PLACE}: {name} must have shape ({size + 1},), a number for each pin, or ({size},), the support's 0 "
+            f"{_CALLER}: {name} must have shape ({size + 1},), a number for each pin, or ({size},), the support's 0 "
             f"left out, got {array.shape}"
         )
-    refuse_where(~np.isfinite(array), array, f"{_PLACE}: {name} must be finite")
+    refuse_where(~np.isfinite(array), array, f"{_CALLER}: {name} must be finite")
     return array.astype(np.complex128) if turns else array
 
 
@@ -181,14 +181,14 @@ def _places(system: Cord, arc_length: ArrayLike | None, starts: list[Any]) -> Fl
     if arc_length is None:
         arc = np.linspace(0.0, system.length, next(iter(given.values()), 101))
     else:
-        arc = np.array(floats(_PLACE, "arc_length", arc_length))
+        arc = np.array(floats(_CALLER, "arc_length", arc_length))
         if arc.ndim != 1 or not arc.size:
-            raise ValueError(f"{_PLACE}: arc_length must have one axis, got {shown(arc_length)}")
+            raise ValueError(f"{_CALLER}: arc_length must have one axis, got {shown(arc_length)}")
         inside = (arc >= 0) & (arc <= system.length)
-        refuse_where(~inside, arc, f"{_PLACE}: arc_length must lie between 0 and the length {system.length:g}")
+        refuse_where(~inside, arc, f"{_CALLER}: arc_length must lie between 0 and the length {system.length:g}")
     for name, size in given.items():
         if size != arc.size:
-            raise ValueError(f"{_PLACE}: {name} must have a number for each of the {arc.size} places of arc_length, got {size}")
+            raise ValueError(f"{_CALLER}: {name} must have a number for each of the {arc.size} places of arc_length, got {size}")
     return arc
 
 
@@ -198,12 +198,12 @@ def _start_of_cord(name: str, given: Start | None) -> Floats | Callable[[float],
         return None
     if callable(given):
         function = given
-        return lambda s: real(_PLACE, f"{name}({s:g})", function(s))
-    array = floats(_PLACE, name, given)
+        return lambda s: real(_CALLER, f"{name}({s:g})", function(s))
+    array = floats(_CALLER, name, given)
     if array.ndim != 1 or array.size < 2:
         raise ValueError(
-            f"{_PLACE}: {name} must be a function of the distance from the free end, or numbers from the free end to the "
+            f"{_CALLER}: {name} must be a function of the distance from the free end, or numbers from the free end to the "
             f"support, got {shown(given)}"
         )
-    refuse_where(~np.isfinite(array), array, f"{_PLACE}: {name} must be finite")
+    refuse_where(~np.isfinite(array), array, f"{_CALLER}: {name} must be finite")
     return array

@@ -25,7 +25,7 @@ from .refuse import no_system
 from .shapes import shape_on_branch
 from .speeds import speeds
 
-_PLACE = "revchain.tune"
+_CALLER = "revchain.tune"
 _PATHS = '"length", "links[0].mass", "support.stiffness" or "flywheels[0].momentum"'
 _SEARCHED = 65  # values
 
@@ -137,32 +137,32 @@ def tune(
     0.173584
     """
     if not isinstance(system, System):
-        raise no_system(_PLACE, system)
+        raise no_system(_CALLER, system)
     of: Any = system
     if not isinstance(vary, str):
-        raise ValueError(f"{_PLACE}: vary must be a path such as {_PATHS}, got {shown(vary)}")
-    number = count(_PLACE, "mode", mode)
-    g = one_positive(_PLACE, "gravity", gravity)
+        raise ValueError(f"{_CALLER}: vary must be a path such as {_PATHS}, got {shown(vary)}")
+    number = count(_CALLER, "mode", mode)
+    g = one_positive(_CALLER, "gravity", gravity)
     if system._kind == "rig":
         name, value = _of_either_sign(angular_speed, conical_height)
     else:
-        name, value = exactly_one(_PLACE, conical_height=conical_height, angular_speed=angular_speed)
+        name, value = exactly_one(_CALLER, conical_height=conical_height, angular_speed=angular_speed)
     bent = system._is_held and of.span is not None
     if bent and top_tension is None:
         raise ValueError(
-            f"{_PLACE}: a system held at a span is bent and has no critical speed; also give top_tension, the "
+            f"{_CALLER}: a system held at a span is bent and has no critical speed; also give top_tension, the "
             "required tension at the upper end"
         )
     if top_tension is not None and not bent:
-        raise ValueError(f"{_PLACE}: top_tension is for a system held at a span; leave it out, got {shown(top_tension)}")
+        raise ValueError(f"{_CALLER}: top_tension is for a system held at a span; leave it out, got {shown(top_tension)}")
     if system._is_held and not bent:
-        straight(_PLACE, of, g)
-    datum = read(_PLACE, system, vary, g)
+        straight(_CALLER, of, g)
+    datum = read(_CALLER, system, vary, g)
     height, speed = _height_and_speed(name, value, g)
     if system._kind == "chain" and vary != "length":
         return _link(of, datum, number, name, value, g, between)
     if bent:
-        pull = one_positive(_PLACE, "top_tension", top_tension)
+        pull = one_positive(_CALLER, "top_tension", top_tension)
         return _searched(datum, speed, g, between, lambda held: _speed_under(held, number, pull, g))
     one: Tuned | None = None
     if system._kind == "rig":
@@ -173,28 +173,28 @@ def tune(
         signed = np.array([number if speed > 0 else -number])
 
         def speed_of(changed: Any) -> tuple[float, float]:
-            found = speeds(_PLACE, changed, signed, g)
+            found = speeds(_CALLER, changed, signed, g)
             return float(found.speed[0]), float(found.bound[0])
 
         return _searched(datum, speed, g, between, speed_of)
     if between is not None:
-        raise ValueError(f"{_PLACE}: between is for a search, and {vary} has one value; leave it out, got {shown(between)}")
+        raise ValueError(f"{_CALLER}: between is for a search, and {vary} has one value; leave it out, got {shown(between)}")
     return one
 
 
 def _height_and_speed(name: str, value: float, gravity: float) -> tuple[float, float]:
     """The wanted conical height and speed, of which one is given; a ValueError if the other does not fit in a double."""
     if name == "angular_speed":
-        return height_of(_PLACE, None, abs(value), gravity), value
-    return value, one_positive(_PLACE, "(gravity / conical_height)**0.5", math.sqrt(gravity / value))
+        return height_of(_CALLER, None, abs(value), gravity), value
+    return value, one_positive(_CALLER, "(gravity / conical_height)**0.5", math.sqrt(gravity / value))
 
 
 def _of_either_sign(speed: Any, height: Any) -> tuple[str, float]:
     if speed is None or height is not None:
-        return exactly_one(_PLACE, conical_height=height, angular_speed=speed)
-    wanted = real(_PLACE, "angular_speed", speed)
+        return exactly_one(_CALLER, conical_height=height, angular_speed=speed)
+    wanted = real(_CALLER, "angular_speed", speed)
     if not np.isfinite(wanted) or wanted == 0:
-        raise ValueError(f"{_PLACE}: angular_speed must be finite and not 0, got {wanted:g}")
+        raise ValueError(f"{_CALLER}: angular_speed must be finite and not 0, got {wanted:g}")
     return "angular_speed", wanted
 
 
@@ -202,7 +202,7 @@ def _link(chain: Chain, datum: Datum, mode: int, name: str, wanted: float, gravi
     """The values of a datum of a link of a chain, by proved counts."""
     low, high = (None, None) if between is None else _ends(between, datum)
     height, speed = (wanted, None) if name == "conical_height" else (None, wanted)
-    core, quantity = compiled(_PLACE, chain), datum.quantity.replace("mass", "weight")
+    core, quantity = compiled(_CALLER, chain), datum.quantity.replace("mass", "weight")
     status, present, tuned, bound, values, complete, low, high, lowest, highest, found = _core.tune(
         core, mode, datum.link, quantity, height, speed, gravity, low, high
     )
@@ -257,7 +257,7 @@ def _formed(rig: Rig, datum: Datum, mode: int, speed: float, gravity: float) -> 
         assert rig.flywheels is not None
         inertia = np.broadcast_to(rig.flywheels._inertia, rig.size)[link]
         if not inertia:
-            raise ValueError(f"{_PLACE}: flywheels[{link}] has no moment of inertia, so its spin has no effect; vary another")
+            raise ValueError(f"{_CALLER}: flywheels[{link}] has no moment of inertia, so its spin has no effect; vary another")
         of = lambda: gravity / inertia * _core.momentum_for_speed(under, link, speed, gravity)  # noqa: E731
     else:
         return None
@@ -267,7 +267,7 @@ def _formed(rig: Rig, datum: Datum, mode: int, speed: float, gravity: float) -> 
         tuned = datum.change(value)
     found: Any = modes(tuned, mode, gravity=gravity)
     if mode > max(1, *found.available):
-        raise ValueError(f"{_PLACE}: mode must be from 1 to {max(found.available)}, got {mode}")
+        raise ValueError(f"{_CALLER}: mode must be from 1 to {max(found.available)}, got {mode}")
     same = found.number == mode
     if found.has_momentum:
         same &= np.sign(found.angular_speed) == np.sign(speed)
@@ -277,7 +277,7 @@ def _formed(rig: Rig, datum: Datum, mode: int, speed: float, gravity: float) -> 
 
 def _speed_under(held: Held, mode: int, tension: float, gravity: float) -> tuple[float, float]:
     """The speed at which the branch of a mode has a tension, and the estimate of its relative error."""
-    shape = shape_on_branch(_PLACE, held, mode, "top_tension", tension, gravity)
+    shape = shape_on_branch(_CALLER, held, mode, "top_tension", tension, gravity)
     return shape.angular_speed, 1e-13 if held.size else 1e-11
 
 
@@ -296,7 +296,7 @@ def _searched(
 
     low, high = _range(datum) if between is None else _ends(between, datum)
     if not -np.inf < low < high < np.inf:
-        raise ValueError(f"{_PLACE}: between must be finite, and its high end must exceed the low one, got {low:g} and {high:g}")
+        raise ValueError(f"{_CALLER}: between must be finite, and its high end must exceed the low one, got {low:g} and {high:g}")
     off: dict[float, float] = {}
 
     def seen(value: float) -> float:
@@ -308,7 +308,7 @@ def _searched(
         seen(value)
     if not off:
         found(datum.present)  # says why
-        raise ValueError(f"{_PLACE}: the mode does not exist for any value between {low:g} and {high:g}")
+        raise ValueError(f"{_CALLER}: the mode does not exist for any value between {low:g} and {high:g}")
     for before, here, after in list(zip(off, [*off][1:], [*off][2:], strict=False)):
         if off[here] and min(off[before] / off[here], off[after] / off[here]) > 1:  # an extreme near the wanted speed
             _turn(lambda x, sign=np.sign(off[here]): sign * seen(x), before, after)  # type: ignore[misc]
@@ -392,6 +392,6 @@ def _ends(between: Any, datum: Datum) -> tuple[float, float]:
     try:
         low, high = between
     except (TypeError, ValueError):
-        raise ValueError(f"{_PLACE}: between must be a pair (low, high), got {shown(between)}") from None
-    ends = [real(_PLACE, f"{datum.quantity} (each end of between)", end) for end in (low, high)]
+        raise ValueError(f"{_CALLER}: between must be a pair (low, high), got {shown(between)}") from None
+    ends = [real(_CALLER, f"{datum.quantity} (each end of between)", end) for end in (low, high)]
     return ends[0], ends[1]

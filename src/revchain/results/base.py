@@ -366,12 +366,12 @@ class Listed(Sequence[Item]):
 
     def index(self, value: object, start: int = 0, stop: int | None = None) -> int:
         """Index of the first result equal to `value`, from `start` on and before `stop`."""
-        place = f"{type(self).__name__}.index"
-        ends = integer(place, "start", start), None if stop is None else integer(place, "stop", stop)
+        caller = f"{type(self).__name__}.index"
+        ends = integer(caller, "start", start), None if stop is None else integer(caller, "stop", stop)
         for number in range(len(self))[slice(*ends)]:
             if value is self[number] or (type(value) is type(self[number]) and value == self[number]):
                 return number
-        raise ValueError(f"{place}: none of the {len(self)} results is {shown(value)}")
+        raise ValueError(f"{caller}: none of the {len(self)} results is {shown(value)}")
 
     def __iter__(self) -> Iterator[Item]:
         return iter(self._items)

@@ -160,7 +160,7 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         -------
         SteadyShape
             The shape of a chain or rig, computed in double-double. Its ``error_bound`` is proved, except at a fold,
-            where it is an estimate, as it is for cords (at a fold 1e-7, because of the place of the fold on the arc)
+            where it is an estimate, as it is for cords (at a fold 1e-7, because of the position of the fold on the arc)
             and for held systems; for a held chain `steady_shapes` at its speed proves one.
 
         Raises
@@ -221,15 +221,15 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         >>> [shape.half_waves for shape in branch.at(conical_height=0.2)]
         [1]
         """
-        place = "revchain.Branch.at"
-        g = self.gravity if gravity is None else one_positive(place, "gravity", gravity)
+        caller = "revchain.Branch.at"
+        g = self.gravity if gravity is None else one_positive(caller, "gravity", gravity)
         if hasattr(self.system, "support") and g != self.gravity:
             what = f"gravity must be that of the rig's branch, {self.gravity:g}"
-            raise ValueError(f"{place}: {what}, got {g:g}; follow it anew")
-        height = height_of(place, conical_height, angular_speed, g)
+            raise ValueError(f"{caller}: {what}, got {g:g}; follow it anew")
+        height = height_of(caller, conical_height, angular_speed, g)
         if self._shapes is not None:
             what = "is for systems that hang; for a Held ask steady_shapes at the speed"
-            raise ValueError(f"{place}: {what}, got {height:g}")
+            raise ValueError(f"{caller}: {what}, got {height:g}")
         return tuple(shape_made(found, self.system, g, self.direction) for found in self._found().shapes_at(height))
 
     def stability_windows(
@@ -268,12 +268,12 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         spectrally stable 0.46332
         unstable 0.1
         """
-        place = "revchain.Branch.stability_windows"
-        driven = is_driven(place, frame)
-        wide = one_positive(place, "tolerance", tolerance)
-        places = min(count(place, "samples", samples), 10**6)
+        caller = "revchain.Branch.stability_windows"
+        driven = is_driven(caller, frame)
+        wide = one_positive(caller, "tolerance", tolerance)
+        places = min(count(caller, "samples", samples), 10**6)
         if self._shapes is not None or not isinstance(self._found(), _core.Branch):
-            raise ValueError(f"{place}: is for chains; use the stability of shapes: branch.shape(-1).stability()")
+            raise ValueError(f"{caller}: is for chains; use the stability of shapes: branch.shape(-1).stability()")
         found = _core.stability_windows(self.system._under(self.gravity), self._found(), driven, wide, places)
         return [
             StabilityWindow._made(

@@ -542,11 +542,11 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         return self._places("slope", "slope", arc_length)
 
     def _places(self, method: str, name: str, arc_length: ArrayLike) -> Floats:
-        cord, place = self._require_cord(method), f"revchain.Modes.{method}"
-        arc = floats(place, "arc_length", arc_length)
+        cord, caller = self._require_cord(method), f"revchain.Modes.{method}"
+        arc = floats(caller, "arc_length", arc_length)
         if arc.ndim > 1:
-            raise ValueError(f"{place}: arc_length must be a number or have one axis, got shape {arc.shape}")
-        refuse_where(~((arc >= 0) & (arc <= cord.length)), arc, f"{place}: arc_length must lie between 0 and the length")
+            raise ValueError(f"{caller}: arc_length must be a number or have one axis, got shape {arc.shape}")
+        refuse_where(~((arc >= 0) & (arc <= cord.length)), arc, f"{caller}: arc_length must lie between 0 and the length")
         found: Floats = getattr(self._found(), name)(np.atleast_1d(arc))
         return found.reshape((len(self), *arc.shape))
 
@@ -613,7 +613,7 @@ def _texts(nodes: Iterable[Numbers]) -> list[str]:
     """Text with the number of nodes of each mode, and the places of the first and the last."""
     found = []
     for places in nodes:
-        shown = [f"{place:.3g}" if place < 1000 else f"{place:.0f}" for place in places[[0, -1]]] if places.size else []
+        shown = [f"{caller:.3g}" if caller < 1000 else f"{caller:.0f}" for caller in places[[0, -1]]] if places.size else []
         if places.size <= 1:
             found.append(": ".join([str(places.size), *shown[:1]]))
         else:

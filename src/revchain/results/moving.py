@@ -36,7 +36,7 @@ class Moving:
             Ends in ``.gif``, ``.mp4`` or ``.html``. The page is one file that shows the model of `to_glb` in three
             dimensions, in any browser with WebGL and without a network.
         figures : iterable of int, optional
-            Which of several: modes by their numbers; shapes and branches by their places in the list, from 0. The first
+            Which of several: modes by their numbers; shapes and branches by their positions in the list, from 0. The first
             six if left out.
         time_scale : float, optional
             Seconds of motion in one second of film: 1 is real time, 0.1 ten times slower. If left out, it is chosen so

@@ -59,7 +59,7 @@ class Sensitivity(Result):
     ``lower_radius`` ...            radius, stiffness and mass of the lower and upper end of what is held
     ==============================  =================================================================================
 
-    The place and size of the displaced fluid and the momentum of the flywheel are constant while a datum of a link changes.
+    The position and size of the displaced fluid and the momentum of the flywheel are constant while a datum of a link changes.
 
     Laws: the relative derivatives of a height by masses add up to 0, those by lengths, centroids and radii of gyration to 1,
     and those by lengths in proportion to 1; each of these is the link's share of the potential energy. Method for modes:
@@ -279,13 +279,13 @@ def rig_derivatives(rig: Rig, speeds: Any, shapes: Any, gravity: float) -> dict[
 
 def uncertainty_of_modes(modes: Modes, given: dict[str, Any]) -> Uncertainty:
     """See `Modes.uncertainty`; `given` has the arguments that were given."""
-    place, system, kind = "revchain.Modes.uncertainty", modes.system, modes.system._kind
+    caller, system, kind = "revchain.Modes.uncertainty", modes.system, modes.system._kind
     if kind == "held chain":
         raise ValueError(
-            f"{place}: is for a Chain, a Rig or a Cord, got a chain held at both ends; change the datum and call modes again"
+            f"{caller}: is for a Chain, a Rig or a Cord, got a chain held at both ends; change the datum and call modes again"
         )
     sensitivity = modes.sensitivity
-    given = _checked(place, modes, given, sensitivity.data)
+    given = _checked(caller, modes, given, sensitivity.data)
     data = _data(system, modes.gravity)
     parts: dict[str, Floats] = {}
     for name, rates in sensitivity.value.items():
@@ -293,7 +293,7 @@ def uncertainty_of_modes(modes: Modes, given: dict[str, Any]) -> Uncertainty:
         if name in given:
             present = np.broadcast_to(data[name], rates.shape[1] if rates.ndim == 2 else 1)
             called = name if system.by_mass else name.replace("mass", "weight")
-            spread = _deviations(place, called, given[name], present)
+            spread = _deviations(caller, called, given[name], present)
         each = np.nan_to_num(rates if rates.ndim == 2 else rates[:, None])
         part = each * (each @ spread) if spread.ndim == 2 else (each * spread) ** 2
         parts[name] = part if rates.ndim == 2 else part[:, 0]
@@ -319,37 +319,37 @@ def uncertainty_of_modes(modes: Modes, given: dict[str, Any]) -> Uncertainty:
     )
 
 
-def _checked(place: str, modes: Modes, given: dict[str, Any], known: tuple[str, ...]) -> dict[str, Any]:
+def _checked(caller: str, modes: Modes, given: dict[str, Any], known: tuple[str, ...]) -> dict[str, Any]:
     """The given deviations by the names of their data. Raises ValueError for a datum that the system was not built from."""
     system, kind = modes.system, modes.system._kind
     given, heavy = dict(given), "mass" if system.by_mass else "weight"
     if kind in ("chain", "rig") and ("mass" in given or "weight" in given):
-        given["mass"] = like(place, _links(system), given.get("mass"), given.pop("weight", None))
+        given["mass"] = like(caller, _links(system), given.get("mass"), given.pop("weight", None))
     elif kind not in ("chain", "rig"):
         other = "weight" if system.by_mass else "mass"
         for name in [name for name in given if other in name]:
             wanted = name.replace(other, heavy)
-            raise ValueError(f"{place}: the cord was given by {heavy}: give {wanted}, not {name}, got {shown(given[name])}")
+            raise ValueError(f"{caller}: the cord was given by {heavy}: give {wanted}, not {name}, got {shown(given[name])}")
         given = {name.replace("weight", "mass"): value for name, value in given.items()}
         held = kind.startswith("held")
         for name in given:
             if name in (("tip_mass", "exponent") if held else ("tension",)):
                 why = "is for a hanging cord" if held else "is for a cord held at both ends"
                 called = name.replace("mass", heavy)
-                raise ValueError(f"{place}: {called} {why}; leave it out, got {shown(given[name])}")
+                raise ValueError(f"{caller}: {called} {why}; leave it out, got {shown(given[name])}")
         if "exponent" in given and not isinstance(system.density, float):
             why = "the density was given as a function and has no exponent"
-            raise ValueError(f"{place}: {why}, got {shown(given['exponent'])}")
+            raise ValueError(f"{caller}: {why}, got {shown(given['exponent'])}")
     for name, value in given.items():
         if name not in known:
-            raise ValueError(f"{place}: a {kind} has no {name}; leave it out, got {shown(value)}")
+            raise ValueError(f"{caller}: a {kind} has no {name}; leave it out, got {shown(value)}")
     if "spin" in given and (system.flywheels is None or "spin" not in system.flywheels._given):
-        raise ValueError(f"{place}: spin is for flywheels that were given by spin; give momentum, got {shown(given['spin'])}")
+        raise ValueError(f"{caller}: spin is for flywheels that were given by spin; give momentum, got {shown(given['spin'])}")
     if "spin" in given and "momentum" in given:
-        raise ValueError(f"{place}: give either spin or momentum, got both")
+        raise ValueError(f"{caller}: give either spin or momentum, got both")
     if "stiffness" in given and not np.isfinite(system.support.stiffness):
         why = "stiffness is for a support on a spring, and this one is firm; leave it out"
-        raise ValueError(f"{place}: {why}, got {shown(given['stiffness'])}")
+        raise ValueError(f"{caller}: {why}, got {shown(given['stiffness'])}")
     return given
 
 
@@ -382,7 +382,7 @@ def _data(system: Any, gravity: float) -> dict[str, Any]:
     return found
 
 
-def _deviations(place: str, name: str, given: Any, data: Floats) -> Floats:
+def _deviations(caller: str, name: str, given: Any, data: Floats) -> Floats:
     """Standard deviations (a number, or one for each datum), or their covariance; a ValueError if they are neither."""
     value, size = unpacked(given), data.size
     if isinstance(value, str):
@@ -390,30 +390,30 @@ def _deviations(place: str, name: str, given: Any, data: Floats) -> Floats:
     if isinstance(value, np.ndarray) and value.dtype.kind == "U":
         value = value.tolist()
     if isinstance(value, list | tuple):
-        value = _parts_of_data(f"{place}: {name}", value, np.abs(data))
-    array = floats(place, name, value)
+        value = _parts_of_data(f"{caller}: {name}", value, np.abs(data))
+    array = floats(caller, name, value)
     if array.shape not in ((), (size,), (size, size)):
         raise ValueError(
-            f"{place}: {name} must be a number, one for each of the {size} links, or their covariance of shape "
+            f"{caller}: {name} must be a number, one for each of the {size} links, or their covariance of shape "
             f"({size}, {size}), got shape {array.shape}"
         )
     if array.ndim < 2:
-        refuse_where(~(np.isfinite(array) & (array >= 0)), array, f"{place}: {name} must be finite and not negative")
+        refuse_where(~(np.isfinite(array) & (array >= 0)), array, f"{caller}: {name} must be finite and not negative")
     elif not (np.isfinite(array).all() and (array == array.T).all() and (array.diagonal() >= 0).all()):
-        raise ValueError(f"{place}: covariance of {name} must be finite, symmetric, and no variance negative")
+        raise ValueError(f"{caller}: covariance of {name} must be finite, symmetric, and no variance negative")
     return array
 
 
-def _parts_of_data(place: str, value: Any, data: Floats) -> list[Any]:
+def _parts_of_data(caller: str, value: Any, data: Floats) -> list[Any]:
     """Deviations; those given in percent are multiplied by the data."""
     of = [data[k] if k < len(data) else 1.0 for k in range(len(value))]
     return [
-        _part(place, one) * float(datum) if isinstance(one, str) and one.strip().endswith("%") else one
+        _part(caller, one) * float(datum) if isinstance(one, str) and one.strip().endswith("%") else one
         for one, datum in zip(value, of, strict=True)
     ]
 
 
-def _part(place: str, text: str) -> float:
+def _part(caller: str, text: str) -> float:
     with suppress(ValueError):
         return float(text.strip().removesuffix("%")) / 100
-    raise ValueError(f'{place} must be a number, or a part of it such as "5 %", got {shown(text)}')
+    raise ValueError(f'{caller} must be a number, or a part of it such as "5 %", got {shown(text)}')

@@ -26,10 +26,10 @@ TURN = 2 * math.pi
 FORCES = ("tension", "effective_energy", "lower_pull", "upper_pull")
 
 
-def is_driven(place: str, frame: str) -> bool:
+def is_driven(caller: str, frame: str) -> bool:
     """Whether `frame` is ``driven``; a ValueError unless it is ``driven`` or ``free``."""
     if not isinstance(frame, str) or frame not in ("free", "driven"):
-        raise ValueError(f"{place}: frame must be 'free' or 'driven', got {shown(frame)}")
+        raise ValueError(f"{caller}: frame must be 'free' or 'driven', got {shown(frame)}")
     return frame == "driven"
 
 
@@ -345,13 +345,13 @@ class SteadyShape(Result, Moving, row="link", title="Steady shape of {_waves}{_a
         >>> round(float(rc.steady_shapes(cord, conical_height=0.1)[0].along(0.5).offset), 6)
         0.380421
         """
-        place, found = "revchain.SteadyShape.along", self._found()
+        caller, found = "revchain.SteadyShape.along", self._found()
         if not hasattr(found, "along"):
             what = "is for cords; the pins of links are in offset and height"
-            raise ValueError(f"{place}: {what}, got {shown(self.system)}")
+            raise ValueError(f"{caller}: {what}, got {shown(self.system)}")
         length = self.system.length
-        arc = floats(place, "arc_length", arc_length)
-        what = f"{place}: arc_length must lie between 0 and the length {length:g}"
+        arc = floats(caller, "arc_length", arc_length)
+        what = f"{caller}: arc_length must lie between 0 and the length {length:g}"
         refuse_where(~((arc >= 0) & (arc <= length)), arc, what)
         *where, tension = found.along(arc)
         return Place(*numbers([*where, self._per * tension]))

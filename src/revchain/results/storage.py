@@ -220,8 +220,8 @@ def _netcdf(purpose: str) -> Any:
     return require("xarray", "netcdf", purpose)
 
 
-def _ending(place: str, path: str | os.PathLike[str]) -> str:
-    ending = Path(file_path(place, "path", path)).suffix.lower()
+def _ending(caller: str, path: str | os.PathLike[str]) -> str:
+    ending = Path(file_path(caller, "path", path)).suffix.lower()
     if ending not in (".npz", ".nc"):
         more = "; for a picture: result.plot().figure.savefig(...); for a scene: revchain.load_scene"
         raise ValueError(f"results are kept in .npz or .nc files, got {os.fspath(path)}{more}")

@@ -116,8 +116,8 @@ class Study(Table, frozen=True):
         Traceback (most recent call last):
         revchain.scenes.error.SceneError: study: vary."links[0].mas": unknown key; did you mean mass?
         """
-        place = "revchain.Study.from_dict"
-        return cls._read(data, text(place, "source", source), Path(file_path(place, "folder", folder)), [])
+        caller = "revchain.Study.from_dict"
+        return cls._read(data, text(caller, "source", source), Path(file_path(caller, "folder", folder)), [])
 
     @classmethod
     def _read(cls, data: Any, source: str, folder: Path, problems: list[Problem]) -> Self:
@@ -184,10 +184,10 @@ class Study(Table, frozen=True):
         >>> study.scene_at(1).system()
         Chain of 1 link, length 0.2, mass 1
         """
-        plan, place = self._plan("study"), "revchain.Study.scene_at"
-        point = integer(place, "point", point)
+        plan, caller = self._plan("study"), "revchain.Study.scene_at"
+        point = integer(caller, "point", point)
         if not 0 <= point < plan.points:
-            raise IndexError(f"{place}: there are {plan.points} points from 0 on, got {point}")
+            raise IndexError(f"{caller}: there are {plan.points} points from 0 on, got {point}")
         return Scene.from_dict(plan.scene([column[point].item() for column in plan.values()]))
 
     def _refusal(self, point: int) -> str:
@@ -284,13 +284,13 @@ def study_schema() -> dict[str, Any]:
 def _refuse_twice(axes: tuple[Axis, ...], numbers: Numbers) -> None:
     """Note an error for a path that is given twice or lies inside another, and for a name given twice."""
     for k, axis in enumerate(axes):
-        place = numbers.of(joined("vary", axis.key))
+        caller = numbers.of(joined("vary", axis.key))
         for other in axes[:k]:
             if axis.name == other.name:
-                place.refuse("name", f"{axis.name} is the name of another, too")
+                caller.refuse("name", f"{axis.name} is the name of another, too")
             shorter = min(axis.path, other.path, key=len)
             if axis.path[: len(shorter)] == other.path[: len(shorter)]:
-                place.refuse("", f"is varied by {joined('vary', other.key)}, too")
+                caller.refuse("", f"is varied by {joined('vary', other.key)}, too")
 
 
 def _check(base: dict[str, Any], axis: Axis, numbers: Numbers) -> None:

@@ -28,7 +28,7 @@ from .study import Study, load_study
 if TYPE_CHECKING:
     from xarray import Dataset
 
-_PLACE = "revchain.sweep"
+_CALLER = "revchain.sweep"
 BATCH, ONE_BY_ONE, MOST_CHUNKS = 65536, 100, 10_000  # points in a chunk of a batch, in another chunk; number of chunks
 CHUNKS = "[0-9]*-[0-9]*.npz"
 PACKAGES = {".csv": ["pyarrow.csv"], ".parquet": ["pyarrow.parquet"], ".nc": ["h5py", "h5netcdf"]}
@@ -112,12 +112,12 @@ def sweep(
     elif not isinstance(study, Study):
         study = load_study(study)
     if executor is not None and not callable(getattr(executor, "submit", None)):
-        raise TypeError(f"{_PLACE}: executor must be a concurrent.futures.Executor, got {shown(executor)}")
+        raise TypeError(f"{_CALLER}: executor must be a concurrent.futures.Executor, got {shown(executor)}")
     if progress is not None and not callable(progress):
-        raise TypeError(f"{_PLACE}: progress must be a function of two numbers, got {shown(progress)}")
-    chunk = None if chunk is None else checked_count(_PLACE, "chunk", chunk)
-    workers = _processors() if workers is None else checked_count(_PLACE, "workers", workers)
-    require("xarray", "sweep", _PLACE)
+        raise TypeError(f"{_CALLER}: progress must be a function of two numbers, got {shown(progress)}")
+    chunk = None if chunk is None else checked_count(_CALLER, "chunk", chunk)
+    workers = _processors() if workers is None else checked_count(_CALLER, "workers", workers)
+    require("xarray", "sweep", _CALLER)
     if out is not None:
         check_ending(out)
     plan = study._plan("study")
@@ -244,7 +244,7 @@ def _remove(folder: Path) -> None:
 
 def check_ending(path: str | os.PathLike[str]) -> None:
     """Raise an error if the ending of an output is unknown, or if a package that writes it is missing."""
-    ending = Path(file_path(_PLACE, "the output", path)).suffix.lower()
+    ending = Path(file_path(_CALLER, "the output", path)).suffix.lower()
     if ending not in PACKAGES:
         raise ValueError(f"{os.fspath(path)} must end in .csv, .parquet or .nc")
     for module in PACKAGES[ending]:
@@ -290,7 +290,7 @@ def dataset(study: Study, plan: Plan, values: Values, rows: Rows) -> Dataset:
     flags = {"flag_values": np.arange(1, 4, dtype=np.int8), "flag_meanings": " ".join(STATUS)}
     data["status"] = points, rows["status"].reshape(plan.shape), flags
     about = {"title": study.title, "study": json.dumps(study.to_dict())}
-    found: Dataset = require("xarray", "sweep", _PLACE).Dataset(data, coordinates, about)
+    found: Dataset = require("xarray", "sweep", _CALLER).Dataset(data, coordinates, about)
     return found
 
 

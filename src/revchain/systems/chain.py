@@ -99,14 +99,14 @@ class Chain(System):
         order: Order = "free end first",
         names: Sequence[str] | None = None,
     ) -> None:
-        place = "revchain.Chain"
+        caller = "revchain.Chain"
         if unnamed or length is None:
             found = ", ".join(map(shown, unnamed))
             wrong = f"numbers without a name: {found}" if unnamed else "no length"
-            raise TypeError(f"{place}: give quantities by name, such as Chain(mass=[1, 3], length=[0.5, 0.5]), got {wrong}")
-        by_mass, _ = mass_or_weight(place, mass, weight)
+            raise TypeError(f"{caller}: give quantities by name, such as Chain(mass=[1, 3], length=[0.5, 0.5]), got {wrong}")
+        by_mass, _ = mass_or_weight(caller, mass, weight)
         columns = link_arrays(
-            place,
+            caller,
             mass=mass,
             weight=weight,
             length=length,
@@ -115,13 +115,13 @@ class Chain(System):
             radius_of_gyration=radius_of_gyration,
         )
         _check_shapes(columns)
-        if order is not _FREE_END and word(place, "order", order, _ORDERS) == "support first":
+        if order is not _FREE_END and word(caller, "order", order, _ORDERS) == "support first":
             columns = {name: column[::-1] if column.ndim else column for name, column in columns.items()}
         if by_mass:
             columns["weight"] = columns.pop("mass")
-        _set(self, "_compiled", checked(place, by_mass, _core.Chain, **columns))
+        _set(self, "_compiled", checked(caller, by_mass, _core.Chain, **columns))
         _set(self, "by_mass", by_mass)
-        _set(self, "_names", None if names is None else _checked_names(place, names, self.size, order))
+        _set(self, "_names", None if names is None else _checked_names(caller, names, self.size, order))
 
     @classmethod
     def _wrap(cls, compiled: _core.Chain, by_mass: bool = False, names: tuple[str, ...] | None = None) -> Chain:
@@ -166,10 +166,10 @@ class Chain(System):
         >>> rc.modes(rc.Chain.uniform_plummets(2, length=2.0)).conical_height.round(6)
         array([1.707107, 0.292893])
         """
-        place = "revchain.Chain.uniform_plummets"
-        by_mass, whole = _whole(place, mass, weight)
-        number, long = checked_count(place, "count", count), real(place, "length", length)
-        return cls._wrap(checked(place, by_mass, _core.Chain.uniform_plummets, number, long, whole), by_mass)
+        caller = "revchain.Chain.uniform_plummets"
+        by_mass, whole = _whole(caller, mass, weight)
+        number, long = checked_count(caller, "count", count), real(caller, "length", length)
+        return cls._wrap(checked(caller, by_mass, _core.Chain.uniform_plummets, number, long, whole), by_mass)
 
     @classmethod
     def uniform_rods(
@@ -206,10 +206,10 @@ class Chain(System):
         >>> rc.modes(rc.Chain.uniform_rods(1, length=1.5)).conical_height
         array([1.])
         """
-        place = "revchain.Chain.uniform_rods"
-        by_mass, whole = _whole(place, mass, weight)
-        number, long = checked_count(place, "count", count), real(place, "length", length)
-        return cls._wrap(checked(place, by_mass, _core.Chain.uniform_rods, number, long, whole), by_mass)
+        caller = "revchain.Chain.uniform_rods"
+        by_mass, whole = _whole(caller, mass, weight)
+        number, long = checked_count(caller, "count", count), real(caller, "length", length)
+        return cls._wrap(checked(caller, by_mass, _core.Chain.uniform_rods, number, long, whole), by_mass)
 
     @classmethod
     def tapered(
@@ -253,11 +253,11 @@ class Chain(System):
         >>> rc.Chain.tapered(3, exponent=1.0).weight.round(6)
         array([0.111111, 0.333333, 0.555556])
         """
-        place = "revchain.Chain.tapered"
-        by_mass, whole = _whole(place, mass, weight)
-        number, long = checked_count(place, "count", count, each=8), real(place, "length", length)
-        power = real(place, "exponent", exponent)
-        return cls._wrap(checked(place, by_mass, _core.Chain.tapered, number, long, power, whole), by_mass)
+        caller = "revchain.Chain.tapered"
+        by_mass, whole = _whole(caller, mass, weight)
+        number, long = checked_count(caller, "count", count, each=8), real(caller, "length", length)
+        power = real(caller, "exponent", exponent)
+        return cls._wrap(checked(caller, by_mass, _core.Chain.tapered, number, long, power, whole), by_mass)
 
     @property
     def taper(self) -> float | None:
@@ -360,11 +360,11 @@ class Chain(System):
         >>> rc.Chain.uniform_plummets(2, length=2.0).with_body(weight=1.5).weight
         array([2. , 0.5])
         """
-        place = "revchain.Chain.with_body"
-        heavy = like(place, self, mass, weight)
-        body = real(place, "mass" if self.by_mass else "weight", heavy)
-        at, radius = integer(place, "pin", pin), real(place, "radius_of_gyration", radius_of_gyration)
-        made = checked(place, self.by_mass, _core.with_weight, compiled(place, self), body, at, radius)
+        caller = "revchain.Chain.with_body"
+        heavy = like(caller, self, mass, weight)
+        body = real(caller, "mass" if self.by_mass else "weight", heavy)
+        at, radius = integer(caller, "pin", pin), real(caller, "radius_of_gyration", radius_of_gyration)
+        made = checked(caller, self.by_mass, _core.with_weight, compiled(caller, self), body, at, radius)
         return self._wrap(made, self.by_mass, self._names)
 
     def with_thread(self, length: float, pin: int) -> Chain:
@@ -393,9 +393,9 @@ class Chain(System):
         >>> rc.modes(rc.Chain(weight=1.0, length=1.0).with_thread(0.5, pin=1)).conical_height
         array([1.5])
         """
-        place = "revchain.Chain.with_thread"
-        core, at = compiled(place, self), integer(place, "pin", pin)
-        made = _core.with_thread(core, real(place, "length", length), at)
+        caller = "revchain.Chain.with_thread"
+        core, at = compiled(caller, self), integer(caller, "pin", pin)
+        made = _core.with_thread(core, real(caller, "length", length), at)
         return self._wrap(made, self.by_mass, self._names and (*self._names[:at], "thread", *self._names[at:]))
 
     def clamped(self, link: int) -> Chain:
@@ -422,9 +422,9 @@ class Chain(System):
         >>> rc.Chain.uniform_rods(3, length=3.0).clamped(0).length
         array([2., 1.])
         """
-        place = "revchain.Chain.clamped"
-        at = integer(place, "link", link)
-        made = _core.clamped(compiled(place, self), at)
+        caller = "revchain.Chain.clamped"
+        at = integer(caller, "link", link)
+        made = _core.clamped(compiled(caller, self), at)
         names = self._names and (*self._names[:at], " and ".join(self._names[at : at + 2]), *self._names[at + 2 :])
         return self._wrap(made, self.by_mass, names)
 
@@ -564,28 +564,28 @@ class Chain(System):
         return cls._from_state(((data["links"], *arrays, 2, *taper), by_mass, names and tuple(names)))
 
 
-def like(place: str, chain: Chain, mass: Any, weight: Any, of: str = "") -> Any:
+def like(caller: str, chain: Chain, mass: Any, weight: Any, of: str = "") -> Any:
     """The mass if the chain was given by mass, else the weight; a ValueError if the wrong one was given."""
-    by_mass, heavy = mass_or_weight(place, mass, weight, of)
+    by_mass, heavy = mass_or_weight(caller, mass, weight, of)
     if by_mass != chain.by_mass:
         given, other = ("mass", "weight") if chain.by_mass else ("weight", "mass")
-        raise ValueError(f"{place}: the chain was given by {given}: give {of}{given}, not {of}{other}, got {shown(heavy)}")
+        raise ValueError(f"{caller}: the chain was given by {given}: give {of}{given}, not {of}{other}, got {shown(heavy)}")
     return heavy
 
 
-def _whole(place: str, mass: float | None, weight: float | None) -> tuple[bool, float]:
+def _whole(caller: str, mass: float | None, weight: float | None) -> tuple[bool, float]:
     """Whether the mass of a whole chain is given, and its mass or weight; the weight is 1 if neither is given."""
     if mass is None and weight is None:
         return False, 1.0
-    by_mass, heavy = mass_or_weight(place, mass, weight)
-    return by_mass, real(place, "mass" if by_mass else "weight", heavy)
+    by_mass, heavy = mass_or_weight(caller, mass, weight)
+    return by_mass, real(caller, "mass" if by_mass else "weight", heavy)
 
 
-def _checked_names(place: str, names: Sequence[str], size: int, order: str) -> tuple[str, ...]:
+def _checked_names(caller: str, names: Sequence[str], size: int, order: str) -> tuple[str, ...]:
     if not isinstance(names, list | tuple) or not all(isinstance(name, str) for name in names):
-        raise ValueError(f"{place}: names must be a list of text, got {shown(names)}")
+        raise ValueError(f"{caller}: names must be a list of text, got {shown(names)}")
     if len(names) != size:
-        raise ValueError(f"{place}: names must have one name for each of the {size} links, got {len(names)}")
+        raise ValueError(f"{caller}: names must have one name for each of the {size} links, got {len(names)}")
     return tuple(names) if order == "free end first" else tuple(names)[::-1]
 
 
@@ -606,21 +606,21 @@ def _check_shapes(columns: dict[str, Floats]) -> None:
         raise ValueError(f"revchain.Chain: arrays must have one number for each link, but {found}")
 
 
-def checked(place: str, by_mass: bool, make: Callable[..., Any], *given: Any, **named: Any) -> Any:
-    """The result of `make`. Its errors name `place`, and say "mass" if masses were given."""
+def checked(caller: str, by_mass: bool, make: Callable[..., Any], *given: Any, **named: Any) -> Any:
+    """The result of `make`. Its errors name `caller`, and say "mass" if masses were given."""
     try:
         return make(*given, **named)
     except ValueError as error:
         text = str(error).partition(": ")[2]
-        raise ValueError(f"{place}: {text.replace('weight', 'mass') if by_mass else text}") from None
+        raise ValueError(f"{caller}: {text.replace('weight', 'mass') if by_mass else text}") from None
 
 
-def compiled(place: str, chain: Chain, link_by_link: bool = True) -> _core.Chain:
+def compiled(caller: str, chain: Chain, link_by_link: bool = True) -> _core.Chain:
     """The compiled chain; a TypeError if `chain` is not a Chain, a ValueError if it has too many links."""
     if not isinstance(chain, Chain):
-        raise TypeError(f"{place}: chain must be a revchain.Chain, got {shown(chain)}")
+        raise TypeError(f"{caller}: chain must be a revchain.Chain, got {shown(chain)}")
     if link_by_link:
-        refuse_beyond_memory(place, "the number of links", chain.size, 8)
+        refuse_beyond_memory(caller, "the number of links", chain.size, 8)
     return chain._compiled
 
 

@@ -74,27 +74,27 @@ class Cord(System):
         tip_mass: float | None = None,
         tip_weight: float | None = None,
     ) -> None:
-        place = "revchain.Cord"
-        long = one_positive(place, "length", length)
+        caller = "revchain.Cord"
+        long = one_positive(caller, "length", length)
         by_mass = weight is None and tip_weight is None
         if mass is not None or weight is not None:
-            by_mass, heavy = mass_or_weight(place, mass, weight)
-            total = one_positive(place, "mass" if by_mass else "weight", heavy)
+            by_mass, heavy = mass_or_weight(caller, mass, weight)
+            total = one_positive(caller, "mass" if by_mass else "weight", heavy)
         else:
             total = None
         name, tip = ("tip_mass", tip_mass) if by_mass else ("tip_weight", tip_weight)
         if (tip_weight if by_mass else tip_mass) is not None:
-            raise ValueError(f"{place}: give {name} for a cord given by {'mass' if by_mass else 'weight'}")
-        hung = 0.0 if tip is None else real(place, name, tip)
+            raise ValueError(f"{caller}: give {name} for a cord given by {'mass' if by_mass else 'weight'}")
+        hung = 0.0 if tip is None else real(caller, name, tip)
         if not 0 <= hung < math.inf:
-            raise ValueError(f"{place}: {name} must be finite and not negative, got {hung:g}")
+            raise ValueError(f"{caller}: {name} must be finite and not negative, got {hung:g}")
         function: _core.LineDensity | float
         if isinstance(density, _core.LineDensity):
             function = density
         elif callable(density):
-            function = _core.LineDensity(_checked(place, density), long)
+            function = _core.LineDensity(_checked(caller, density), long)
         else:
-            function = real(place, "density (the exponent, or a function of the distance from the free end)", density)
+            function = real(caller, "density (the exponent, or a function of the distance from the free end)", density)
         self._set(_core.Cord(long, total, function, hung), function, by_mass)
 
     def _set(self, compiled: _core.Cord, density: _core.LineDensity | float, by_mass: bool) -> None:
@@ -255,10 +255,10 @@ def _named(name: str, value: float) -> dict[str, Any]:
     return {name: value}
 
 
-def _checked(place: str, density: Callable[[float], float]) -> Callable[[float], float]:
+def _checked(caller: str, density: Callable[[float], float]) -> Callable[[float], float]:
     def checked(s: float) -> float:
         value = density(s)
-        return value if type(value) is float else real(place, f"density({s:g})", value)
+        return value if type(value) is float else real(caller, f"density({s:g})", value)
 
     return checked
 

@@ -78,7 +78,7 @@ def steps(path: object) -> Path:
     return tuple(int(index) if index else name for name, index in re.findall(r"([a-z_]+)|\[(\d+)\]", path))
 
 
-def read(place: str, system: Any, path: Any, gravity: float) -> Datum:
+def read(caller: str, system: Any, path: Any, gravity: float) -> Datum:
     """The datum of a path; for an unknown path a ValueError that lists the known ones."""
     name, link = path, None
     if len(parts := steps(path)) == 3 and isinstance(parts[1], int):
@@ -88,34 +88,34 @@ def read(place: str, system: Any, path: Any, gravity: float) -> Datum:
     if not isinstance(name, str) or name not in known:
         if isinstance(name, str) and name.replace(other, heavy) in known:
             hint = str(path).replace(other, heavy)
-            raise ValueError(f'{place}: the {_kind(system)} was given by {heavy}: vary "{hint}", got {shown(path)}')
+            raise ValueError(f'{caller}: the {_kind(system)} was given by {heavy}: vary "{hint}", got {shown(path)}')
         if system._kind == "chain" and name == heavy:
             raise ValueError(
-                f'{place}: vary must not be "{heavy}" of a whole chain, whose speeds depend on ratios alone; vary '
+                f'{caller}: vary must not be "{heavy}" of a whole chain, whose speeds depend on ratios alone; vary '
                 f'"links[k].{heavy}" of a link, got {shown(path)}'
             )
         if name == "support.radius":
             raise ValueError(
-                f"{place}: support.radius has no effect on the speeds of small oscillations, only on response and "
+                f"{caller}: support.radius has no effect on the speeds of small oscillations, only on response and "
                 f"steady_shapes; vary another datum, got {shown(path)}"
             )
         listed = ", ".join(f'"{one}"' for one in known)
-        raise ValueError(f"{place}: vary must be one of {listed} of a {_kind(system)}, got {shown(path)}")
+        raise ValueError(f"{caller}: vary must be one of {listed} of a {_kind(system)}, got {shown(path)}")
     if link is not None and link >= system.size:
         what = name.partition("[")[0]
-        raise ValueError(f"{place}: vary names {what}[{link}], and the highest is {what}[{system.size - 1}]")
-    datum = _READ[system._kind.partition(" ")[0]](place, system, path, link, gravity)
+        raise ValueError(f"{caller}: vary names {what}[{link}], and the highest is {what}[{system.size - 1}]")
+    datum = _READ[system._kind.partition(" ")[0]](caller, system, path, link, gravity)
     return replace(datum, link=link or 0)
 
 
-def refuse_overlap(place: str, paths: Iterable[str]) -> None:
+def refuse_overlap(caller: str, paths: Iterable[str]) -> None:
     """Raise a ValueError if two paths change the same number."""
     before: list[str] = []
     for path in paths:
         for other in before:
             if path == other or any(_holds(*pair) for pair in ((path, other), (other, path))):
                 raise ValueError(
-                    f'{place}: vary has "{other}" and "{path}", which change the same number; leave one of them out'
+                    f'{caller}: vary has "{other}" and "{path}", which change the same number; leave one of them out'
                 )
         before.append(path)
 
@@ -151,22 +151,22 @@ def _paths(system: Any, heavy: str) -> list[str]:
     return paths + [f"displaced[k].{name}" for name in fluid]
 
 
-def _of_chain(place: str, chain: Chain, path: str, link: int | None, gravity: float) -> Datum:
-    whole = compiled(place, chain).total_weight
+def _of_chain(caller: str, chain: Chain, path: str, link: int | None, gravity: float) -> Datum:
+    whole = compiled(caller, chain).total_weight
     if path in ("mass", "weight"):
         column = np.broadcast_to(chain._compiled.weight, chain.size)
-        return Datum(path, whole, lambda x: _scaled(place, chain, x / whole, 1.0), whole, rate=("mass", column / whole))
+        return Datum(path, whole, lambda x: _scaled(caller, chain, x / whole, 1.0), whole, rate=("mass", column / whole))
     long = chain.total_length
     if path == "length":
         share = chain.length / long
-        return Datum(path, long, lambda x: _scaled(place, chain, 1.0, x / long), long, rate=("length_in_proportion", share))
+        return Datum(path, long, lambda x: _scaled(caller, chain, 1.0, x / long), long, rate=("length_in_proportion", share))
     assert link is not None
     name = path.rpartition(".")[2]
     own = float(chain.length[link])
     rate = ("mass" if name == "weight" else name, (np.arange(chain.size) == link).astype(float))
 
     def change(x: float) -> Chain:
-        return _with_link(place, chain, link, name, x)
+        return _with_link(caller, chain, link, name, x)
 
     if name in ("mass", "weight"):
         present = float(np.broadcast_to(chain._compiled.weight, chain.size)[link])
@@ -176,13 +176,13 @@ def _of_chain(place: str, chain: Chain, path: str, link: int | None, gravity: fl
     return Datum(path, present, change, own, floor, own if name in ("centroid", "radius_of_gyration") else math.inf, rate)
 
 
-def _scaled(place: str, chain: Chain, heavier: float, longer: float) -> Chain:
+def _scaled(caller: str, chain: Chain, heavier: float, longer: float) -> Chain:
     """The chain with all masses multiplied by one factor and all lengths by another."""
     size, heavy, length, centroid, *rest = chain._compiled.__getstate__()
-    return _chain(place, chain, (size, heavier * heavy, longer * length, longer * centroid, *rest))
+    return _chain(caller, chain, (size, heavier * heavy, longer * length, longer * centroid, *rest))
 
 
-def _with_link(place: str, chain: Chain, link: int, name: str, value: float) -> Chain:
+def _with_link(caller: str, chain: Chain, link: int, name: str, value: float) -> Chain:
     size, *stored, form = chain._compiled.__getstate__()[:7]  # what follows is for chains that `tapered` made
     heavy, length, centroid, ratio, low = (np.array(np.broadcast_to(column, size)) for column in stored)
     if name in ("mass", "weight"):
@@ -197,17 +197,17 @@ def _with_link(place: str, chain: Chain, link: int, name: str, value: float) -> 
         radius = value if name == "radius_of_gyration" else chain.radius_of_gyration[link]
         length[link] = length[link] if name == "radius_of_gyration" else value
         numbers = {"weight": 1.0, "length": length[link], "centroid": length[link], "radius_of_gyration": radius}
-        one = checked(place, False, _core.Chain, **{key: np.asarray(number) for key, number in numbers.items()})
+        one = checked(caller, False, _core.Chain, **{key: np.asarray(number) for key, number in numbers.items()})
         ratio[link], low[link] = one.__getstate__()[4:6]
-    return _chain(place, chain, (size, heavy, length, centroid, ratio, low, form))
+    return _chain(caller, chain, (size, heavy, length, centroid, ratio, low, form))
 
 
-def _chain(place: str, chain: Chain, state: tuple[Any, ...]) -> Chain:
-    made: Chain = checked(place, chain.by_mass, Chain._from_state, (state, chain.by_mass, chain.names))
+def _chain(caller: str, chain: Chain, state: tuple[Any, ...]) -> Chain:
+    made: Chain = checked(caller, chain.by_mass, Chain._from_state, (state, chain.by_mass, chain.names))
     return made
 
 
-def _of_rig(place: str, rig: Rig, path: str, link: int | None, gravity: float) -> Datum:
+def _of_rig(caller: str, rig: Rig, path: str, link: int | None, gravity: float) -> Datum:
     chain, support, wheels, fluid, *rest = rig._state()
     where, _, name = path.rpartition(".")
 
@@ -216,7 +216,7 @@ def _of_rig(place: str, rig: Rig, path: str, link: int | None, gravity: float) -
         return Rig._from_state((*fittings.values(), *rest))
 
     if where == "" or where.startswith("links"):
-        own = _of_chain(place, chain, path, link, gravity)
+        own = _of_chain(caller, chain, path, link, gravity)
         follows = fluid is not None and name in _LENGTHS and path != f"{where}.length"  # what is displaced may
         return replace(own, change=lambda x: made(chain=own.change(x)), rate=None if follows else own.rate)
     whole, long = chain._compiled.total_weight, chain.total_length
@@ -256,7 +256,7 @@ def _of_rig(place: str, rig: Rig, path: str, link: int | None, gravity: float) -
     return Datum(path, present, change, typical, rate=(field, part) if what == "displaced" else None)
 
 
-def _of_held(place: str, held: Held, path: str, link: int | None, gravity: float) -> Datum:
+def _of_held(caller: str, held: Held, path: str, link: int | None, gravity: float) -> Datum:
     def made(system: Chain | Cord, tension: float | None = held.tension) -> Held:
         return held._between_its_ends(system, held.span, tension)
 
@@ -268,7 +268,7 @@ def _of_held(place: str, held: Held, path: str, link: int | None, gravity: float
         assert held.tension is not None
         least = 0.0 if held.weightless else held._force(gravity) * held._total
         return Datum(path, held.tension, lambda x: made(held.system, x), held.tension, floor=least, one_way=True)
-    own = _READ[held.system._kind](place, held.system, path, link, gravity)
+    own = _READ[held.system._kind](caller, held.system, path, link, gravity)
     # More mass anywhere lowers the tension below it and adds inertia: all speeds fall.
     heavy = path.rpartition(".")[2] in ("mass", "weight")
     floor = held.span if path == "length" and held.span is not None else own.floor
@@ -277,7 +277,7 @@ def _of_held(place: str, held: Held, path: str, link: int | None, gravity: float
     )
 
 
-def _of_cord(place: str, cord: Cord, path: str, link: int | None, gravity: float) -> Datum:
+def _of_cord(caller: str, cord: Cord, path: str, link: int | None, gravity: float) -> Datum:
     length, heavy, tip, kept, by_mass = cord._state()
     if path == "length":
         return Datum(path, length, lambda x: _longer(cord, x / length), length)

@@ -92,28 +92,28 @@ class Held(System):
         lower: Support | None = None,
         upper: Support | None = None,
     ) -> None:
-        place = "revchain.Held"
+        caller = "revchain.Held"
         if not isinstance(system, Chain | Cord):
-            raise TypeError(f"{place}: system must be a revchain.Chain or Cord, got {shown(system)}")
+            raise TypeError(f"{caller}: system must be a revchain.Chain or Cord, got {shown(system)}")
         if (span is None) == (tension is None):
-            raise ValueError(f"{place}: give exactly one of span and tension")
+            raise ValueError(f"{caller}: give exactly one of span and tension")
         _set(self, "system", system)
-        _set(self, "span", None if span is None else one_positive(place, "span", span))
-        _set(self, "tension", None if tension is None else one_positive(place, "tension", tension))
-        _set(self, "weightless", boolean(place, "weightless", weightless))
+        _set(self, "span", None if span is None else one_positive(caller, "span", span))
+        _set(self, "tension", None if tension is None else one_positive(caller, "tension", tension))
+        _set(self, "weightless", boolean(caller, "weightless", weightless))
         if self.span is not None and not self.span < self.length:
-            raise ValueError(f"{place}: span must be less than the length {self.length:.6g}, got {self.span:g}")
+            raise ValueError(f"{caller}: span must be less than the length {self.length:.6g}, got {self.span:g}")
         for name, end in (("lower", lower), ("upper", upper)):
-            _set(self, name, Support() if end is None else _checked(f"{place}: {name}", end, self))
+            _set(self, name, Support() if end is None else _checked(f"{caller}: {name}", end, self))
         apart = math.hypot(self.span or 0.0, self.upper.radius - self.lower.radius)
         if self.is_firm and not apart < self.length:
             raise ValueError(
-                f"{place}: the ends must be nearer to each other than the length {self.length:.6g}, got {apart:g}: bring "
+                f"{caller}: the ends must be nearer to each other than the length {self.length:.6g}, got {apart:g}: bring "
                 "their radii or the span closer"
             )
         if isinstance(system, Cord) and (system.density != 0.0 or system._compiled.tip_weight):
             raise ValueError(
-                f"{place}: a held cord must be uniform and without a tip; for another cut it into links: cord.chain(100)"
+                f"{caller}: a held cord must be uniform and without a tip; for another cut it into links: cord.chain(100)"
             )
 
     @property
@@ -272,20 +272,20 @@ _End = tuple[float, float, float, float]
 _FIRM = (math.inf, 1.0, 0.0, 0.0)
 
 
-def _checked(place: str, end: Support, held: Held) -> Support:
+def _checked(caller: str, end: Support, held: Held) -> Support:
     if not isinstance(end, Support):
-        raise TypeError(f"{place} must be a revchain.Support, got {shown(end)}")
+        raise TypeError(f"{caller} must be a revchain.Support, got {shown(end)}")
     if end == Support():
         return end
     if held._is_cord:
         raise ValueError(
-            f"{place} end of a cord is a firm point on the axis; cut it into links: Held(cord.chain(100), ...), got {end}"
+            f"{caller} end of a cord is a firm point on the axis; cut it into links: Held(cord.chain(100), ...), got {end}"
         )
     if held.tension is not None and end.radius:
-        raise ValueError(f"{place} end must be on the axis under a tension; give the span, got radius {end.radius:g}")
+        raise ValueError(f"{caller} end must be on the axis under a tension; give the span, got radius {end.radius:g}")
     if end.carriage:
         chain: Any = held.system
-        like(place, chain, end._given.get("mass"), end._given.get("weight"))
+        like(caller, chain, end._given.get("mass"), end._given.get("weight"))
     return end
 
 

@@ -29,12 +29,12 @@ STANDARD_GRAVITY = 9.80665
 """Standard acceleration of gravity in m/s^2 (exact by definition, CGPM 1901)."""
 
 
-def floats(place: str, name: str, value: ArrayLike | None) -> Floats:
+def floats(caller: str, name: str, value: ArrayLike | None) -> Floats:
     """`value` as a float64 array, numbers with units in SI; a ValueError refuses anything but real numbers."""
     if type(value) is np.ndarray and value.dtype is _FLOAT64 and value.flags.c_contiguous:
         return value  # as fast as can be: there is nothing to convert
     if not isinstance(value, float) and units.are_there(value := units.unpacked(value)):
-        value = units.in_si(place, name, value)
+        value = units.in_si(caller, name, value)
     array = array_of(value)
     if array.dtype == object and all(isinstance(x, Real) and not isinstance(x, bool) for x in array.flat):
         with suppress(OverflowError):
@@ -42,9 +42,9 @@ def floats(place: str, name: str, value: ArrayLike | None) -> Floats:
     if isinstance(value, (bytes, bytearray, memoryview)):
         array = np.asarray(None)
     if array.dtype.kind not in "iuf" or (array.size == 0 and array.ndim == 0):
-        raise ValueError(f"{place}: {name} must be a real number or an array of them, got {shown(value)}")
+        raise ValueError(f"{caller}: {name} must be a real number or an array of them, got {shown(value)}")
     if isinstance(value, np.ma.MaskedArray) and np.ma.is_masked(value):
-        raise ValueError(f"{place}: {name} has masked entries")
+        raise ValueError(f"{caller}: {name} has masked entries")
     return array.astype(np.float64, order="C", copy=False)
 
 
@@ -56,41 +56,41 @@ def array_of(value: object) -> NDArray[Any]:
         return np.asarray(None)
 
 
-def integer(place: str, name: str, value: object) -> int:
+def integer(caller: str, name: str, value: object) -> int:
     """`value` as an int that the compiled module can hold; a float, a bool or a string is refused with a ValueError."""
-    number = _whole(place, name, value)
+    number = _whole(caller, name, value)
     if not -LARGEST <= number <= LARGEST:
-        raise ValueError(f"{place}: {name} must be a number of less than 64 bits, got {shown(number)}")
+        raise ValueError(f"{caller}: {name} must be a number of less than 64 bits, got {shown(number)}")
     return number
 
 
-def place_of(place: str, name: str, value: object, size: int) -> int:
-    """`value` as a place in a list of that size, from 0; negative ones count from its end."""
-    number = integer(place, name, value)
+def place_of(caller: str, name: str, value: object, size: int) -> int:
+    """`value` as a position in a list of that size, from 0; negative ones count from its end."""
+    number = integer(caller, name, value)
     if not -size <= number < size:
-        raise ValueError(f"{place}: {name} must be from {-size} to {size - 1}, got {number}")
+        raise ValueError(f"{caller}: {name} must be from {-size} to {size - 1}, got {number}")
     return number % size
 
 
-def count(place: str, name: str, value: object, each: int = 0) -> int:
+def count(caller: str, name: str, value: object, each: int = 0) -> int:
     """`value` as an int of at least 1; a ValueError if so many results of `each` bytes exceed the memory."""
-    number = _whole(place, name, value)
+    number = _whole(caller, name, value)
     if number < 1:
-        raise ValueError(f"{place}: {name} must be at least 1, got {shown(number)}")
+        raise ValueError(f"{caller}: {name} must be at least 1, got {shown(number)}")
     if number > LARGEST:
-        raise ValueError(f"{place}: {name} is too large, got {shown(number)}")
-    refuse_beyond_memory(place, name, number, each)
+        raise ValueError(f"{caller}: {name} is too large, got {shown(number)}")
+    refuse_beyond_memory(caller, name, number, each)
     return number
 
 
-def refuse_beyond_memory(place: str, name: str, number: int, each: int) -> None:
+def refuse_beyond_memory(caller: str, name: str, number: int, each: int) -> None:
     """Raise a ValueError if so many numbers of `each` bytes exceed the memory of this machine."""
     if number < 100_000:
         return
     if number * each > (memory := _memory()):
         needed, there = number * each / 2**30, memory / 2**30
         raise ValueError(
-            f"{place}: {name} is too large, got {number}: it would take {needed:.3g} GiB of memory, and this machine "
+            f"{caller}: {name} is too large, got {number}: it would take {needed:.3g} GiB of memory, and this machine "
             f"has {there:.3g} GiB"
         )
 
@@ -103,53 +103,53 @@ def _memory() -> int:
     return 2**47
 
 
-def limit(place: str, name: str, value: object) -> int:
+def limit(caller: str, name: str, value: object) -> int:
     """`value` as an int, at most the largest that the compiled module can hold."""
-    return int(min(max(_whole(place, name, value), -LARGEST), LARGEST))
+    return int(min(max(_whole(caller, name, value), -LARGEST), LARGEST))
 
 
-def _whole(place: str, name: str, value: object) -> int:
+def _whole(caller: str, name: str, value: object) -> int:
     if not isinstance(value, (bool, np.bool_)):
         with suppress(TypeError):
             return operator.index(value)  # type: ignore[arg-type]
-    raise ValueError(f"{place}: {name} must be a whole number, got {shown(value)}")
+    raise ValueError(f"{caller}: {name} must be a whole number, got {shown(value)}")
 
 
-def listed(place: str, name: str, value: object) -> list[Any]:
+def listed(caller: str, name: str, value: object) -> list[Any]:
     """`value` as a list; a ValueError if it is not iterable."""
     try:
         return list(value)  # type: ignore[call-overload,no-any-return]
     except (TypeError, ValueError):
-        raise ValueError(f"{place}: {name} must be a list of whole numbers, got {shown(value)}") from None
+        raise ValueError(f"{caller}: {name} must be a list of whole numbers, got {shown(value)}") from None
 
 
-def word(place: str, name: str, value: object, words: Iterable[str], note: str = "") -> str:
+def word(caller: str, name: str, value: object, words: Iterable[str], note: str = "") -> str:
     """`value` if it is one of the words; a ValueError, which ends with the note, otherwise."""
     if not isinstance(value, str) or value not in words:
-        raise ValueError(f"{place}: {name} must be one of {', '.join(words)}, got {shown(value)}{note}")
+        raise ValueError(f"{caller}: {name} must be one of {', '.join(words)}, got {shown(value)}{note}")
     return value
 
 
-def text(place: str, name: str, value: object) -> str:
+def text(caller: str, name: str, value: object) -> str:
     """Return `value` if it is text; raise a TypeError otherwise."""
     if not isinstance(value, str):
-        raise TypeError(f"{place}: {name} must be text, got {shown(value)}")
+        raise TypeError(f"{caller}: {name} must be text, got {shown(value)}")
     return value
 
 
-def file_path(place: str, name: str, value: object) -> str:
+def file_path(caller: str, name: str, value: object) -> str:
     """`value` as the path of a file; a TypeError or a ValueError if it is not a path."""
     if not isinstance(value, str | os.PathLike) or not isinstance(path := os.fspath(value), str):
-        raise TypeError(f"{place}: {name} must be a path, that is text or a pathlib.Path, got {shown(value)}")
+        raise TypeError(f"{caller}: {name} must be a path, that is text or a pathlib.Path, got {shown(value)}")
     if "\0" in path:
-        raise ValueError(f"{place}: {name} must have no null byte, got {shown(path)}")
+        raise ValueError(f"{caller}: {name} must have no null byte, got {shown(path)}")
     return path
 
 
-def boolean(place: str, name: str, value: object) -> bool:
+def boolean(caller: str, name: str, value: object) -> bool:
     """`value` as a bool; a TypeError for anything else, 0 and 1 included."""
     if not isinstance(value, (bool, np.bool_)):
-        raise TypeError(f"{place}: {name} must be True or False, got {shown(value)}")
+        raise TypeError(f"{caller}: {name} must be True or False, got {shown(value)}")
     return bool(value)
 
 
@@ -159,46 +159,46 @@ def refuse_where(wrong: NDArray[np.bool_], array: Floats, message: str) -> None:
         raise ValueError(f"{message}, got {array[wrong].flat[0]:g}")
 
 
-def real(place: str, name: str, value: object) -> float:
+def real(caller: str, name: str, value: object) -> float:
     """`value` as a float; anything but one real number is refused with a ValueError."""
     if isinstance(value, float):  # numpy's float64 is one, too
         return float(value)
-    array = floats(place, name, value)  # type: ignore[arg-type]
+    array = floats(caller, name, value)  # type: ignore[arg-type]
     if array.ndim != 0:
-        raise ValueError(f"{place}: {name} must be a single number, got an array of shape {array.shape}")
+        raise ValueError(f"{caller}: {name} must be a single number, got an array of shape {array.shape}")
     return float(array)
 
 
-def reals(place: str, **given: object) -> dict[str, float]:
+def reals(caller: str, **given: object) -> dict[str, float]:
     """Single real numbers by name; the compiled module checks their ranges."""
-    return {name: real(place, name, value) for name, value in given.items()}
+    return {name: real(caller, name, value) for name, value in given.items()}
 
 
-def positive(place: str, name: str, value: ArrayLike) -> Floats:
+def positive(caller: str, name: str, value: ArrayLike) -> Floats:
     """`value` as a float64 array of positive finite numbers."""
-    array = floats(place, name, value)
-    refuse_where(~((array > 0) & (array < math.inf)), array, f"{place}: {name} must be positive and finite")
+    array = floats(caller, name, value)
+    refuse_where(~((array > 0) & (array < math.inf)), array, f"{caller}: {name} must be positive and finite")
     return array
 
 
-def one_positive(place: str, name: str, value: object) -> float:
+def one_positive(caller: str, name: str, value: object) -> float:
     """`value` as a positive finite float; anything but one real number is refused with a ValueError."""
-    return float(positive(place, name, real(place, name, value)))
+    return float(positive(caller, name, real(caller, name, value)))
 
 
-def exactly_one(place: str, **given: float | None) -> tuple[str, float]:
+def exactly_one(caller: str, **given: float | None) -> tuple[str, float]:
     """Name and value of the only argument that is not None; the value must be positive and finite."""
     known = [name for name, value in given.items() if value is not None]
     if len(known) != 1:
         *others, last = given
         raise ValueError(
-            f"{place}: give exactly one of {', '.join(others)} and {last}, got {' and '.join(known) or 'none'}"
+            f"{caller}: give exactly one of {', '.join(others)} and {last}, got {' and '.join(known) or 'none'}"
         )
-    return known[0], one_positive(place, known[0], given[known[0]])
+    return known[0], one_positive(caller, known[0], given[known[0]])
 
 
 def height_of(
-    place: str,
+    caller: str,
     conical_height: float | None,
     speed: float | None,
     gravity: float,
@@ -206,42 +206,42 @@ def height_of(
     speed_name: str = "angular_speed",
 ) -> float:
     """The given conical height, or the conical height of the given speed."""
-    name, value = exactly_one(place, **{height_name: conical_height, speed_name: speed})
+    name, value = exactly_one(caller, **{height_name: conical_height, speed_name: speed})
     if name == height_name:
         return value
-    g = one_positive(place, "gravity", gravity)
+    g = one_positive(caller, "gravity", gravity)
     return one_positive(
-        place, f"gravity / {speed_name}**2", _core.conical_pendulum_height(np.asarray(value), np.asarray(g))
+        caller, f"gravity / {speed_name}**2", _core.conical_pendulum_height(np.asarray(value), np.asarray(g))
     )
 
 
-def together(place: str, **arrays: NDArray[np.generic]) -> list[NDArray[Any]]:
+def together(caller: str, **arrays: NDArray[np.generic]) -> list[NDArray[Any]]:
     """The arrays broadcast to one shape; a ValueError lists the shapes if they cannot be broadcast."""
     try:
         return list(np.broadcast_arrays(*arrays.values()))
     except ValueError:
         shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
-        raise ValueError(f"{place}: these shapes do not go together: {shapes}") from None
+        raise ValueError(f"{caller}: these shapes do not go together: {shapes}") from None
 
 
-def beside(place: str, **arrays: NDArray[np.generic]) -> list[NDArray[Any]]:
+def beside(caller: str, **arrays: NDArray[np.generic]) -> list[NDArray[Any]]:
     """The arrays broadcast to one shape; single numbers after the first stay single, as compiled functions repeat them."""
-    first, *others = together(place, **arrays)
+    first, *others = together(caller, **arrays)
     given = list(arrays.values())[1:]
     return [first, *(one if one.ndim == 0 else many for one, many in zip(given, others, strict=True))]
 
 
-def as_length(place: str, name: str, value: Any) -> Any:
+def as_length(caller: str, name: str, value: Any) -> Any:
     """`value`, a force expressed as a length of chain of that weight; a ValueError if it has a unit."""
     if units.are_there(value):
         why = "it is the length of chain or rope that weighs as much"
-        raise ValueError(f"{place}: {name} must be a number without a unit ({why}), got {shown(value)}")
+        raise ValueError(f"{caller}: {name} must be a number without a unit ({why}), got {shown(value)}")
     return value
 
 
-def positives(place: str, **given: ArrayLike) -> list[Floats]:
+def positives(caller: str, **given: ArrayLike) -> list[Floats]:
     """Positive finite numbers, broadcast as by `beside`."""
-    return beside(place, **{name: positive(place, name, value) for name, value in given.items()})
+    return beside(caller, **{name: positive(caller, name, value) for name, value in given.items()})
 
 
 def numbers(arrays: Iterable[NDArray[Any]]) -> Iterator[Any]:
@@ -249,22 +249,22 @@ def numbers(arrays: Iterable[NDArray[Any]]) -> Iterator[Any]:
     return (array[()] for array in arrays)
 
 
-def mass_or_weight(place: str, mass: Any, weight: Any, of: str = "") -> tuple[bool, Any]:
+def mass_or_weight(caller: str, mass: Any, weight: Any, of: str = "") -> tuple[bool, Any]:
     """Whether the mass is given, and the value of mass or weight; a ValueError unless exactly one is given."""
     if (mass is None) == (weight is None):
         both = "both" if mass is not None else "neither"
-        raise ValueError(f"{place}: give either {of}mass, in kg, or {of}weight, in N, got {both}")
+        raise ValueError(f"{caller}: give either {of}mass, in kg, or {of}weight, in N, got {both}")
     return mass is not None, weight if mass is None else mass
 
 
-def link_arrays(place: str, **given: ArrayLike | None) -> dict[str, Floats]:
+def link_arrays(caller: str, **given: ArrayLike | None) -> dict[str, Floats]:
     """The data of links as arrays by name: mass or weight, length and, for bodies, centroid and inertia."""
     centroid, pendulum, radius = given["centroid"], given["pendulum_length"], given["radius_of_gyration"]
     if centroid is None and not (pendulum is None and radius is None):
-        raise ValueError(f"{place}: {'pendulum_length' if radius is None else 'radius_of_gyration'} needs centroid beside it")
+        raise ValueError(f"{caller}: {'pendulum_length' if radius is None else 'radius_of_gyration'} needs centroid beside it")
     if centroid is not None and (pendulum is None) == (radius is None):
-        raise ValueError(f"{place}: centroid needs exactly one of pendulum_length and radius_of_gyration beside it")
-    return {name: floats(place, name, value) for name, value in given.items() if value is not None or name == "length"}
+        raise ValueError(f"{caller}: centroid needs exactly one of pendulum_length and radius_of_gyration beside it")
+    return {name: floats(caller, name, value) for name, value in given.items() if value is not None or name == "length"}
 
 
 def shown(value: object, width: int = 60) -> str:

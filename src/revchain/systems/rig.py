@@ -106,23 +106,23 @@ class Support(_Fitting):
     def __init__(
         self, *, stiffness: float = math.inf, mass: float | None = None, weight: float | None = None, radius: float = 0.0
     ) -> None:
-        place = "revchain.Support"
+        caller = "revchain.Support"
         if mass is not None and weight is not None:
-            raise ValueError(f"{place}: give either mass or weight, got both")
+            raise ValueError(f"{caller}: give either mass or weight, got both")
         numbers = {"stiffness": stiffness, "mass": mass, "weight": weight, "radius": radius}
-        given = {name: real(place, name, value) for name, value in numbers.items() if value is not None}
+        given = {name: real(caller, name, value) for name, value in numbers.items() if value is not None}
         for name, value in given.items():
             if name == "stiffness" and not value > 0:
-                raise ValueError(f"{place}: stiffness must be positive, got {value:g}")
+                raise ValueError(f"{caller}: stiffness must be positive, got {value:g}")
             if name == "radius" and not math.isfinite(value):
-                raise ValueError(f"{place}: radius must be finite, got {value:g}")
+                raise ValueError(f"{caller}: radius must be finite, got {value:g}")
             if name in ("mass", "weight") and not 0 <= value < math.inf:
-                raise ValueError(f"{place}: {name} must be finite and not negative, got {value:g}")
+                raise ValueError(f"{caller}: {name} must be finite and not negative, got {value:g}")
         carriage = {name: value for name, value in given.items() if name in ("mass", "weight") and value > 0}
         if carriage and math.isinf(given.get("stiffness", math.inf)):
             ((name, value),) = carriage.items()
             raise ValueError(
-                f"{place}: stiffness is missing: what moves sideways needs a support that yields, got {name} {value:g}"
+                f"{caller}: stiffness is missing: what moves sideways needs a support that yields, got {name} {value:g}"
             )
         left_out = {"stiffness": math.inf}
         _set(self, "_given", {name: value for name, value in given.items() if value != left_out.get(name, 0.0)})
@@ -203,23 +203,23 @@ class Flywheel(_Fitting):
         momentum: ArrayLike | None = None,
         axial_moment: ArrayLike | None = None,
     ) -> None:
-        place = "revchain.Flywheel"
+        caller = "revchain.Flywheel"
         wheel = {"radius_of_gyration": radius_of_gyration, "spin": spin}
         if momentum is None and axial_moment is None:
-            by_mass, heavy = mass_or_weight(place, mass, weight)
+            by_mass, heavy = mass_or_weight(caller, mass, weight)
             for name, value in wheel.items():
                 if value is None:
-                    raise ValueError(f"{place}: {name} is missing")
+                    raise ValueError(f"{caller}: {name} is missing")
             given = {"mass" if by_mass else "weight": heavy, **wheel}
         elif any(value is not None for value in (mass, weight, *wheel.values())):
-            raise ValueError(f"{place}: give mass, radius_of_gyration and spin, or momentum instead of them, not both")
+            raise ValueError(f"{caller}: give mass, radius_of_gyration and spin, or momentum instead of them, not both")
         else:
             given = {"momentum": 0.0 if momentum is None else momentum, "axial_moment": axial_moment}
-        columns = {name: floats(place, name, value) for name, value in given.items() if value is not None}
+        columns = {name: floats(caller, name, value) for name, value in given.items() if value is not None}
         for name, column in columns.items():
-            refuse_where(~np.isfinite(column), column, f"{place}: {name} must be finite")
+            refuse_where(~np.isfinite(column), column, f"{caller}: {name} must be finite")
             if name not in ("spin", "momentum"):
-                refuse_where(column < 0, column, f"{place}: {name} must not be negative")
+                refuse_where(column < 0, column, f"{caller}: {name} must not be negative")
         if "axial_moment" in columns and not columns["axial_moment"].any():
             del columns["axial_moment"]
         _set(self, "_given", {name: read_only(column) for name, column in columns.items()})
@@ -227,11 +227,11 @@ class Flywheel(_Fitting):
             return
         flags = array_of(driven)
         if flags.dtype != np.bool_:
-            raise ValueError(f"{place}: driven must be True, False or an array of them, got {shown(driven)}")
+            raise ValueError(f"{caller}: driven must be True, False or an array of them, got {shown(driven)}")
         if not flags.any():
             return
         if "spin" not in columns:
-            raise ValueError(f"{place}: driven goes with mass, radius_of_gyration and spin; with momentum give axial_moment")
+            raise ValueError(f"{caller}: driven goes with mass, radius_of_gyration and spin; with momentum give axial_moment")
         self._given["driven"] = read_only(flags)
 
     @property
@@ -280,7 +280,7 @@ class Displaced(_Fitting):
 
     Notes
     -----
-    Fluid of mass 0 has no effect; `sensitivity` by its mass is that of fluid at the place given.
+    Fluid of mass 0 has no effect; `sensitivity` by its mass is that of fluid at the position given.
     Cost: O(N), when the rig is made. Source: Greenhill (1908), section 2 (6), for Stokes's float.
 
     Examples
@@ -302,11 +302,11 @@ class Displaced(_Fitting):
         added_mass: ArrayLike | None = None,
         added_weight: ArrayLike | None = None,
     ) -> None:
-        place = "revchain.Displaced"
-        by_mass, heavy = mass_or_weight(place, mass, weight)
+        caller = "revchain.Displaced"
+        by_mass, heavy = mass_or_weight(caller, mass, weight)
         wrong, other = ("added_weight", added_weight) if by_mass else ("added_mass", added_mass)
         if other is not None:
-            raise ValueError(f"{place}: {wrong} does not go with {'mass' if by_mass else 'weight'}, got {shown(other)}")
+            raise ValueError(f"{caller}: {wrong} does not go with {'mass' if by_mass else 'weight'}, got {shown(other)}")
         given = {
             "mass" if by_mass else "weight": heavy,
             "centroid": centroid,
@@ -314,16 +314,16 @@ class Displaced(_Fitting):
             "added_mass": added_mass,
             "added_weight": added_weight,
         }
-        columns = {name: floats(place, name, value) for name, value in given.items() if value is not None}
+        columns = {name: floats(caller, name, value) for name, value in given.items() if value is not None}
         for name, column in columns.items():
-            refuse_where(~np.isfinite(column), column, f"{place}: {name} must be finite")
+            refuse_where(~np.isfinite(column), column, f"{caller}: {name} must be finite")
             if name != "centroid":
-                refuse_where(column < 0, column, f"{place}: {name} must not be negative")
+                refuse_where(column < 0, column, f"{caller}: {name} must not be negative")
         _set(self, "_given", {name: read_only(column) for name, column in columns.items()})
 
     @property
     def _bears(self) -> bool:
-        """Whether any fluid is displaced or moves with a link; if not, its place matters for derivatives alone."""
+        """Whether any fluid is displaced or moves with a link; if not, its position matters for derivatives alone."""
         return any(value.any() for name, value in self._given.items() if name in _HEAVY)
 
 
@@ -406,28 +406,28 @@ class Rig(System):
         fluid: str = "still",
         inverted: ArrayLike = False,
     ) -> None:
-        place = "revchain.Rig"
-        compiled(place, chain)
-        word(place, "fluid", fluid, FLUIDS)
+        caller = "revchain.Rig"
+        compiled(caller, chain)
+        word(caller, "fluid", fluid, FLUIDS)
         fittings = {"support": (support, Support), "flywheels": (flywheels, Flywheel), "displaced": (displaced, Displaced)}
         for name, (fitting, kind) in fittings.items():
             if fitting is not None and not isinstance(fitting, kind):
-                raise TypeError(f"{place}: {name} must be a revchain.{kind.__name__}, got {shown(fitting)}")
+                raise TypeError(f"{caller}: {name} must be a revchain.{kind.__name__}, got {shown(fitting)}")
             if fitting is not None and ("mass" in fitting._given or "weight" in fitting._given):
-                like(f"{place}: {name}", chain, fitting._given.get("mass"), fitting._given.get("weight"))
+                like(f"{caller}: {name}", chain, fitting._given.get("mass"), fitting._given.get("weight"))
         if support is not None and support.radius < 0:
-            raise ValueError(f"{place}: support radius must not be negative, got {support.radius:g}")
+            raise ValueError(f"{caller}: support radius must not be negative, got {support.radius:g}")
         if displaced is not None and not (displaced._bears or displaced._given.keys() & {"centroid", "radius_of_gyration"}):
             displaced = None
         if fluid == "turning" and displaced is not None:
             added = displaced._given.get("added_mass", displaced._given.get("added_weight", np.zeros(())))
-            refuse_where(added > 0, added, f"{place}: fluid that turns with the chain has no added mass")
+            refuse_where(added > 0, added, f"{caller}: fluid that turns with the chain has no added mass")
         _set(self, "chain", chain)
         _set(self, "support", Support() if support is None else support)
         _set(self, "flywheels", flywheels)
         _set(self, "displaced", displaced)
         _set(self, "fluid", fluid)
-        _set(self, "_inverted", _flags(place, inverted, chain.size))
+        _set(self, "_inverted", _flags(caller, inverted, chain.size))
         _set(self, "_at", (STANDARD_GRAVITY, self._made(STANDARD_GRAVITY)))  # what is wrong is said now
 
     @property
@@ -510,14 +510,14 @@ class Rig(System):
         return wheels or (self.by_mass and math.isfinite(self.support.stiffness))
 
     def _made(self, gravity: float) -> _core.Rig:
-        place, size = "revchain.Rig", self.size
+        caller, size = "revchain.Rig", self.size
         columns: dict[str, Floats] = {}
         if self.flywheels is not None:
             for name, value in self.flywheels._columns(gravity).items():
-                columns[name] = _column(place, name, np.asarray(value, float), size)
+                columns[name] = _column(caller, name, np.asarray(value, float), size)
         if self.displaced is not None:
             for name, value in self.displaced._given.items():
-                columns[_COLUMN_OF[name]] = _column(place, f"displaced {name}", value, size)
+                columns[_COLUMN_OF[name]] = _column(caller, f"displaced {name}", value, size)
         return _core.Rig(
             self.chain._compiled,
             stiffness=self.support.stiffness,
@@ -617,23 +617,23 @@ _COLUMN_OF = {
 _NOTHING = np.zeros(())
 
 
-def _flags(place: str, value: ArrayLike, size: int) -> NDArray[np.bool_] | None:
+def _flags(caller: str, value: ArrayLike, size: int) -> NDArray[np.bool_] | None:
     if value is False:
         return None
     flags = array_of(value)
     if flags.dtype != np.bool_ or flags.ndim > 1 or (flags.ndim == 1 and flags.size != size):
         raise ValueError(
-            f"{place}: inverted must be True, False or an array of them, one for each of the {size} links, "
+            f"{caller}: inverted must be True, False or an array of them, one for each of the {size} links, "
             f"got {shown(value)}"
         )
     return read_only(np.ascontiguousarray(np.broadcast_to(flags, size))) if flags.any() else None
 
 
-def _column(place: str, name: str, column: Floats, size: int) -> Floats:
+def _column(caller: str, name: str, column: Floats, size: int) -> Floats:
     """The column; a ValueError unless it is a number or has one for each link."""
     if column.ndim > 1 or (column.ndim == 1 and column.size != size):
         raise ValueError(
-            f"{place}: {name} must be a number or an array with one for each of the {size} links, "
+            f"{caller}: {name} must be a number or an array with one for each of the {size} links, "
             f"got shape {column.shape}"
         )
     return column

@@ -145,14 +145,14 @@ class System(Unchangeable):
         >>> rc.Cord.from_dict({"system": "Cord", "length": 2.0, "mass": 0.5})
         Cord of length 2, mass 0.5
         """
-        place = f"revchain.{cls.__name__}.from_dict"
+        caller = f"revchain.{cls.__name__}.from_dict"
         name = data.get("system") if isinstance(data, dict) else None
         if name != cls.__name__:
-            raise ValueError(f'{place}: data must have "system": "{cls.__name__}", got {name!r}')
+            raise ValueError(f'{caller}: data must have "system": "{cls.__name__}", got {name!r}')
         try:
             return cls._from_data({key: value for key, value in data.items() if key != "system"})
         except (KeyError, TypeError) as error:
-            raise ValueError(f"{place}: these are not data of a {cls.__name__}: {error}") from None
+            raise ValueError(f"{caller}: these are not data of a {cls.__name__}: {error}") from None
 
     def _data(self) -> dict[str, Any]:
         raise NotImplementedError

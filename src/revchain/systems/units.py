@@ -75,21 +75,21 @@ def are_there(value: Any) -> bool:
     return isinstance(value, list | tuple) and any(map(are_there, value))
 
 
-def in_si(place: str, name: str, value: Any) -> Any:
+def in_si(caller: str, name: str, value: Any) -> Any:
     """`value` with all its numbers in SI units; a ValueError if a unit does not fit the quantity `name`."""
     value = unpacked(value)
     if isinstance(value, list | tuple):
-        return [in_si(place, name, item) for item in value]
+        return [in_si(caller, name, item) for item in value]
     if not isinstance(value, str) and not hasattr(value, "dimensionality"):
         return value
     words = re.split(r"[ \[(]", name)[0].split("_")  # "lower_radius_of_gyration" is a radius of gyration
     quantity = next((known for k in range(len(words)) if (known := "_".join(words[k:])) in SI), name)
     if quantity not in SI:
-        raise ValueError(f"{place}: {name} must be a number without a unit, got {str(value)!r}")
+        raise ValueError(f"{caller}: {name} must be a number without a unit, got {str(value)!r}")
     try:
         return si_value(value, quantity) if isinstance(value, str) else _converted(value, quantity)
     except ValueError as error:
-        raise ValueError(f"{place}: {name} {error}") from None
+        raise ValueError(f"{caller}: {name} {error}") from None
 
 
 @lru_cache(maxsize=4096)  # pint takes half a millisecond, and files repeat their numbers
