@@ -137,8 +137,6 @@ class Corpus:
         np.savez(path, allow_pickle=False, **arrays)
         data = path.read_bytes()
         path.write_bytes(changed_text(data, draw) if draw.random() < 0.2 else data)
-        with open(path, "r+b") as file:
-            file.write(storage._seal(file))
         return path
 
 

@@ -208,3 +208,9 @@ def test_clamped_pairs():
 def test_wrong_edits(edit, message):
     with pytest.raises(ValueError, match=rf"revchain.*{message}.*, got"):
         edit(rc.Chain(weight=[1.0, 2.0, 3.0], length=[0.5, 0.4, 0.3]))
+
+
+@pytest.mark.parametrize("call", [lambda: rc.Chain([1, 3], [1, 1]), lambda: rc.Chain(mass=[1.0]), lambda: rc.Chain(3, length=1.0)])
+def test_quantities_are_given_by_name(call):
+    with pytest.raises(TypeError, match=r"revchain.Chain: give quantities by name, such as Chain\(mass=.*, length=.*\), got "):
+        call()

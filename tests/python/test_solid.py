@@ -6,6 +6,8 @@ import pytest
 from moving import ALL, CHAIN, ONE, WHEELS, film
 
 import revchain as rc
+from revchain.motion import solid
+from revchain.motion.film import forms
 
 gltf = pytest.importorskip("pygltflib")
 
@@ -71,10 +73,11 @@ def test_glb_is_whole(kind, tmp_path):
         [part] = mesh.primitives
         points, faces = numbers(file, part.attributes.POSITION), numbers(file, part.indices).reshape(-1, 3)
         assert len(file.accessors[part.attributes.POSITION].max) == 3 and faces.max() < len(points)
-        assert np.allclose(np.linalg.norm(numbers(file, part.attributes.NORMAL), axis=1), 1, atol=1e-6)
+        normals = numbers(file, part.attributes.NORMAL)
+        assert np.allclose(np.linalg.norm(normals, axis=1), 1, atol=1e-6)
         corners = points[faces].astype(float)
         outwards = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        assert (np.einsum("ij,ij->i", outwards, corners.mean(axis=1)) > 0).all()  # seen from outside
+        assert (np.einsum("ij,ij->i", outwards, normals[faces].sum(axis=1)) > 0).all()  # seen from outside
     reached, todo = set(), list(file.scenes[0].nodes)
     while todo:
         node = todo.pop()
@@ -86,8 +89,11 @@ def test_glb_is_whole(kind, tmp_path):
     assert len(file.scenes[0].nodes) == len(shown.figures)
     for root, _, inside in figures_of(file):
         assert sum(is_link(node) for node in inside) == shown.figures[0].offset.shape[1] - 1
-        assert sum(node.name.startswith("body of") for node in inside) == shown.bodies.link.size
-        assert sum(node.name.startswith("flywheel of") for node in inside) == np.count_nonzero(shown.bodies.wheel)
+        names = [node.name.partition(" of ")[0] for node in inside]
+        plain = [form == "" and not shown.rings[link] for form, link in zip(shown.bodies.form, shown.bodies.link, strict=True)]
+        assert names.count("body") == sum(plain)
+        for form in {*shown.bodies.form} - {""}:
+            assert names.count(form) == shown.bodies.form.count(form) * len(forms()["bodies"][form]["pieces"])
         assert sum(node.name == "support" for node in inside) == 1 + shown.is_held
         assert root.extras["gravity"] == shown.gravity and root.extras["time_scale"] == shown.time_scale
         assert all(abs(np.linalg.norm(node.rotation) - 1) < 1e-6 for node in inside if node.rotation is not None)
@@ -172,3 +178,49 @@ def test_long_chains_are_thinned(tmp_path):
     file = saved(rc.modes(rc.Chain.uniform_rods(5000), 2), tmp_path / "solid.glb")
     assert [sum(map(is_link, inside)) for _, _, inside in figures_of(file)] == [400, 400]
     assert (tmp_path / "solid.glb").stat().st_size < 400_000
+
+
+def meshes_of(found, path):
+    """The name of each node with the mesh it shows, and the file."""
+    file = saved(found, path)
+    return [(node.name, file.meshes[node.mesh].name) for node in file.nodes if node.mesh is not None], file
+
+
+def test_bodies_have_the_forms_of_their_names(tmp_path):
+    bell = rc.Chain(mass=[18.0, 500.0], length=[0.65, 0.15], centroid=[0.52, 0.05], radius_of_gyration=[0.2, 0.36],
+                    names=["clapper", "the bell"])  # fmt: skip
+    drawn, file = meshes_of(rc.modes(bell, 1), tmp_path / "bell.glb")
+    assert ("bell of links[1] the bell", "bell") in drawn and ("body of links[0] clapper", "ball") in drawn
+    node, link = ([each for each in file.nodes if each.name == name] for name in ("bell of links[1] the bell", "links[1] the bell"))
+    assert node[0].scale == pytest.approx([1.35 * 0.36, 2.2 * 0.36, 1.35 * 0.36])
+    upper, _ = ends(link[0].translation, link[0].rotation, link[0].scale)
+    far = np.linalg.norm(np.asarray(node[0].translation) - upper)  # to the rim, below the centre of gravity
+    assert far == pytest.approx(0.05 / 0.15 * link[0].scale[1] + 0.92 * 0.36, rel=1e-6)
+    ride, _ = meshes_of(rc.modes(rc.Chain(mass=[80.0], length=5.0, names=["chair and rider"])), tmp_path / "seat.glb")
+    assert sum(name.startswith("seat of") for name, _ in ride) == 5
+
+
+def test_wheels_and_rings(tmp_path):
+    wheels = rc.Rig(rc.Chain(mass=[1.5] * 3, length=0.3, centroid=0.15, radius_of_gyration=0.2), flywheels=rc.Flywheel(momentum=2.0))
+    drawn, file = meshes_of(rc.modes(wheels, 1), tmp_path / "wheels.glb")
+    assert [mesh for name, mesh in drawn if name.startswith("wheel of links[0]")][:5] == ["rim", "ball", *["cylinder"] * 3]
+    rim = next(node for node in file.nodes if node.name.startswith("wheel of"))
+    assert rim.scale == pytest.approx([0.2 * 2**0.5] * 3)
+    drawn, _ = meshes_of(rc.modes(rc.Chain.uniform_rods(8), 1), tmp_path / "rings.glb")
+    assert [mesh for name, mesh in drawn if name.startswith("links[")] == ["ring"] * 8
+    drawn, _ = meshes_of(rc.modes(rc.Chain.uniform_rods(7), 1), tmp_path / "bars.glb")
+    assert [mesh for name, mesh in drawn if name.startswith("links[")] == ["cylinder"] * 7
+
+
+@pytest.mark.parametrize("kind", [*solid.FORMS, "bell", "jar"])
+def test_surfaces_face_outwards(kind):
+    """Normals have length 1 and point to the side from which the corners of each face run anticlockwise."""
+    points, normals, faces = solid.FORMS[kind]() if kind in solid.FORMS else solid._lathed(forms()["profiles"][kind])
+    np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1, rtol=1e-6)
+    a, b, c = points[faces.reshape(-1, 3)].transpose(1, 0, 2).astype(float)
+    area = np.cross(b - a, c - a)
+    large = np.linalg.norm(area, axis=1) > 1e-6
+    assert (np.einsum("ij,ij->i", area, normals[faces.reshape(-1, 3)].sum(axis=1))[large] > 0).all()
+    if kind in ("box", "ball", "cylinder", "rim", "ring"):  # closed, so that the volume is positive
+        volume = np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6
+        assert volume > 0

@@ -253,19 +253,13 @@ class Ran:
         return open, ("ran", "w")
 
 
-def sealed(path):
-    """Make the file at `path` pass for one that revchain wrote."""
-    with open(path, "r+b") as file:
-        file.write(_storage._seal(file))
-
-
 def refused(path, match):
     with pytest.raises(ValueError, match=match) as caught:
         rc.load(path)
     assert str(caught.value).startswith(f"{path}: ")
 
 
-NOT_OURS = "not a result that revchain saved"
+NOT_OURS = "is not a result that revchain saved, or was damaged since; compute and save it again"
 
 
 def test_not_a_result(path):
@@ -277,24 +271,21 @@ def test_not_a_result(path):
         rc.load(path)
 
 
-OTHER_ARRAYS = {  # names and arrays of a file, whether it has our seal, what is said of it
-    "numbers": ({"a": np.zeros(3)}, False, NOT_OURS),
-    "unsealed": ({"kind": "revchain modes 99"}, False, NOT_OURS),
-    "objects": ({"kind": [None]}, False, NOT_OURS),
-    "nested": ({"revchain": "[" * 100_000}, True, "recursion"),
-    "a list": ({"revchain": "[]"}, True, "attribute 'get'"),
-    "no JSON": ({"revchain": "no JSON"}, True, "Expecting value"),
-    "no result": ({"revchain": '{"format": "revchain 2"}'}, True, "'result'"),
-    "another version": ({"kind": "revchain modes 1"}, True, "save the result again"),
-    "the version before": ({"revchain": '{"format": "revchain 1"}'}, True, "save the result again"),
+OTHER_ARRAYS = {  # arrays of a file, and what is said of it
+    "numbers": ({"a": np.zeros(3)}, NOT_OURS),
+    "objects": ({"kind": [None]}, "pickled Python objects"),
+    "nested": ({"revchain": "[" * 100_000}, "recursion"),
+    "a list": ({"revchain": "[]"}, "attribute 'get'"),
+    "no JSON": ({"revchain": "no JSON"}, "Expecting value"),
+    "no result": ({"revchain": '{"format": "revchain 2"}'}, "'result'"),
+    "another version": ({"revchain": '{"format": "revchain 99"}'}, "save the result again"),
+    "the version before": ({"revchain": '{"format": "revchain 1"}'}, "save the result again"),
 }
 
 
-@pytest.mark.parametrize(("arrays", "has_seal", "words"), OTHER_ARRAYS.values(), ids=OTHER_ARRAYS)
-def test_other_arrays(npz, arrays, has_seal, words):
+@pytest.mark.parametrize(("arrays", "words"), OTHER_ARRAYS.values(), ids=OTHER_ARRAYS)
+def test_other_arrays(npz, arrays, words):
     np.savez(npz, **{name: np.array(array) for name, array in arrays.items()})
-    if has_seal:
-        sealed(npz)
     refused(npz, words)
 
 
@@ -305,7 +296,6 @@ def test_a_pickled_array_is_refused_by_name(npz, monkeypatch):
         arrays = dict(file)
     for name in arrays:
         np.savez(npz, **{**arrays, name: np.array([Ran()], dtype=object)})
-        sealed(npz)
         refused(npz, f"the array {name!r} is not loaded: .* pickled Python objects, which may run any code")
     assert not os.path.exists("ran")
 
@@ -315,8 +305,6 @@ def test_a_pickle_is_refused(path, monkeypatch):
     for protocol in (0, 2, pickle.HIGHEST_PROTOCOL):
         path.write_bytes(pickle.dumps(Ran(), protocol))
         refused(path, NOT_OURS)
-        sealed(path)
-        refused(path, "pickle|not a zip|not zip|signature|file format")
     assert not os.path.exists("ran")
 
 
@@ -329,22 +317,27 @@ def test_a_file_whose_arrays_are_larger_than_itself_is_refused(path):
         with h5netcdf.File(path, "w") as file:
             file.dimensions = {"x": 10**13}
             file.create_variable("numbers", ("x",), "f8", chunks=(10**6,))  # none of them is written
-    sealed(path)
     refused(path, "holds arrays larger than the file")
 
 
-DAMAGED = "not a result that revchain saved, or damaged since; compute and save it again"
+def test_a_number_that_is_changed_is_found(npz):
+    """Slow: each change is a file written and read. What a reader of .zip files ignores may change."""
+    result = of("Modes")
+    result.save(npz)
+    data = npz.read_bytes()
+    for position in [*range(0, len(data), by_tier(499, 97)), *range(len(data) - 30, len(data))]:
+        for changed in (1, 0x80, 0xFF):
+            npz.write_bytes(data[:position] + bytes([data[position] ^ changed]) + data[position + 1 :])
+            try:
+                assert rc.load(npz) == result
+            except ValueError as error:
+                assert str(error).startswith(f"{npz}: ")
 
 
-def test_every_byte_that_is_changed_is_found(path):
-    """Slow: each change is a file written and read."""
+def test_a_file_that_was_cut(path):
     result = of("Modes")
     result.save(path)
     data = path.read_bytes()
-    for place in [*range(0, len(data), by_tier(499, 97)), *range(len(data) - 30, len(data))]:
-        for changed in (1, 0x80, 0xFF):
-            path.write_bytes(data[:place] + bytes([data[place] ^ changed]) + data[place + 1 :])
-            refused(path, DAMAGED)
     path.write_bytes(data[:-1000])
     refused(path, NOT_OURS)
     capital = path.with_name(path.name.upper())
@@ -353,19 +346,15 @@ def test_every_byte_that_is_changed_is_found(path):
 
 
 @pytest.mark.parametrize("name", ["Modes", "Modes of a rig"])
-def test_arrays_that_do_not_go_together(npz, name):
+def test_an_array_that_is_missing(npz, name):
     of(name).save(npz)
     with np.load(npz) as file:
         arrays = dict(file)
-    for name, array in arrays.items():
-        cut = array[..., :-1] if array.ndim and array.size else np.zeros(7)
-        rest = {other: arrays[other] for other in arrays if other != name}
-        for wrong in ({name: cut}, {name: array.astype("U")}, {name: -1 * np.ones(10**3)}, {}):
-            np.savez(npz, **rest, **wrong)
-            refused(npz, DAMAGED)
+    for missing in arrays:
+        np.savez(npz, **{other: arrays[other] for other in arrays if other != missing})
+        refused(npz, NOT_OURS)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("ending", [".npz", ".nc"])
 def test_a_full_disk(python, ending):
     """Wherever it is full: an OSError that names the output, nothing left, and the process goes on to its end."""
@@ -469,6 +458,30 @@ def test_a_class_of_a_caller_does_not_take_the_place_of_ours(npz):
     assert Modes.__name__ == "Modes"
     rc.modes(CHAIN).save(npz)
     assert type(rc.load(npz)) is rc.Modes
+
+
+LOADED = ["Modes", "Modes of a rig", "Modes in two words", "none, of a chain", "none, of a rig"]
+LOADED += ["Modes of a chain without gravity", "Modes of a cord of what is held", "Modes of a cord without gravity"]
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_a_loaded_result_asks_nothing_again(npz, monkeypatch, name):
+    """All that a result has comes from its file, or is made from its system and its numbers."""
+    result = RESULTS[name]()
+    result.save(npz)
+    fields = {key: getattr(result, key) for key in type(result)._fields if hasattr(result, key)}
+    for question in ("modes", "rig_modes", "cord_modes", "held_modes"):
+        monkeypatch.delattr(rc._core, question)
+    loaded = rc.load(npz)
+    for key, value in fields.items():
+        found = getattr(loaded, key)
+        if key == "nodes" or key == "vertical_points":
+            for mine, other in zip(found, value, strict=True):
+                np.testing.assert_array_equal(mine, other)
+        elif isinstance(value, np.ndarray):
+            np.testing.assert_array_equal(found, value)
+        else:
+            assert found == value
 
 
 def test_a_chain_is_in_a_file_once(npz):

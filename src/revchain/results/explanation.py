@@ -41,11 +41,6 @@ class Explanation(Result, row="method", title="{_heading}", good="meets_toleranc
 
     __slots__ = ()
     estimates: Field[tuple[tuple[Any, ...], ...]] = Field("The rows as plain tuples.")
-    rows: Field[tuple[MethodEstimate, ...]] = Field(
-        "For each method its name, whether it applies (if not, the reason), the bound of its relative error, the expected "
-        "time in seconds, and whether it is chosen.",
-        lambda e: tuple(MethodEstimate(*row) for row in e.estimates),
-    )
     _names: Field[list[str]] = Field(
         "The names of the methods.",
         _column("name"),
@@ -77,6 +72,12 @@ class Explanation(Result, row="method", title="{_heading}", good="meets_toleranc
     meets_tolerance: Field[bool] = Field(
         "Whether the chosen method is within `rtol`; if not, no method is, and it is the most accurate one.", fact=True
     )
+
+    @property
+    def rows(self) -> tuple[MethodEstimate, ...]:
+        """For each method its name, whether it applies (if not, the reason), the bound of its relative error, the expected
+        time in seconds, and whether it is chosen."""
+        return tuple(MethodEstimate(*row) for row in self.estimates)
 
     @property
     def chosen(self) -> MethodEstimate | None:

@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 Complex = NDArray[np.complex128]
 TURN = 8 * np.arctan(np.longdouble(1))
 MOST_OFFSETS = 100_000  # largest number of offsets to compute for the nodes of a table
-MOST_SAVED = 10_000_000  # largest number of offsets to compute for a file
 SPEED_ROUNDING = 2.1 * 2.0**-52  # rounding of a speed computed from a height
 
 
@@ -161,7 +160,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
     """The modes of a system, slowest first: speeds, shapes, nodes and error bounds of k modes.
 
     Heights and bounds are computed at once. Shapes, nodes, residuals and sensitivities are computed when they are first
-    read or saved, then stored; a file leaves out shapes of more than 10 million numbers that were not read. Arrays are read-only. A window may contain no modes (k = 0). ``modes[0]`` is a row: one number or
+    read, then stored; shapes, nodes and residuals also when the result is saved. Arrays are read-only. A window may contain no modes (k = 0). ``modes[0]`` is a row: one number or
     array of each field. For a cord held straight at both ends, distances start at its lower end.
 
     Notes
@@ -561,15 +560,11 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         if self.system._kind.endswith("cord"):
             first = int(self.number[0]) if len(self) else 1
             return _core.CordModes(self.system._under(self.gravity), first, self.conical_height)
-        raise UnavailableError(
-            f"revchain.Modes: the file holds no shapes, because they are more than {MOST_SAVED:,} numbers and none had been "
-            "read; call revchain.modes with its system, or read `nodes` and `shape` before `save`"
-        )
+        return super()._from_parts()
 
     def _state(self) -> dict[str, Any]:
-        if not self.system._kind.endswith("cord") and self.system.size * len(self) <= MOST_SAVED:
-            for name in ("nodes", "shape", "residual"):
-                getattr(self, name)
+        if not self.system._kind.endswith("cord"):
+            _ = self.nodes  # of a cord they follow from its heights, as shapes do
         return super()._state()
 
     def _left_out(self) -> Collection[str]:

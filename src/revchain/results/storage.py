@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import json
 import os
-import zlib
 from collections.abc import Mapping
 from importlib import import_module
 from pathlib import Path
@@ -24,11 +23,11 @@ from .kinds import KINDS, restored
 FORMAT = "revchain 2"
 HEADER = "revchain"  # name of the entry that describes the contents of a file
 COMPRESSED = "holds arrays larger than the file, as revchain saves none; compute and save the result again"
-WRONG = (  # what the readers raise for a file that somebody else made and sealed
+NOT_OURS = "is not a result that revchain saved, or was damaged since; compute and save it again"
+WRONG = (  # what the readers raise for a file that is damaged or that somebody else made
     *(ArithmeticError, AttributeError, BadZipFile, EOFError, LookupError, MemoryError, NotImplementedError),
     *(OSError, RuntimeError, TypeError, ValueError),
 )
-SEAL = b"revchain"  # at the end of a file, followed by the CRC-32 of all bytes before it
 
 
 def save(result: Any, path: str | os.PathLike[str]) -> None:
@@ -46,9 +45,6 @@ def save(result: Any, path: str | os.PathLike[str]) -> None:
         else:
             with open(aside, "wb") as file:  # numpy may add an ending to a name
                 np.savez(file, allow_pickle=False, **{HEADER: np.asarray(header)}, **arrays)
-        if aside.is_file():
-            with open(aside, "r+b") as whole:
-                whole.write(_seal(whole))
 
 
 def load(path: str | os.PathLike[str]) -> Any:
@@ -67,7 +63,7 @@ def load(path: str | os.PathLike[str]) -> Any:
     Raises
     ------
     ValueError
-        If the path has another ending, or the file does not contain a result or is damaged (its checksum is wrong).
+        If the path has another ending, or the file does not contain a result or is damaged: the checksums of ``.npz`` find every changed number.
     ImportError
         If a package for ``.nc`` is not installed; the message says how to install it.
     OSError
@@ -86,11 +82,7 @@ def load(path: str | os.PathLike[str]) -> Any:
     if ending == ".nc":
         xarray = _netcdf("reading .nc files")
     with open(path, "rb") as file:  # raises the ordinary OSError if it cannot be read
-        size = max(os.fstat(file.fileno()).st_size - len(SEAL) - 4, 0)
-        if _seal(file, size) != file.read():
-            reason = "not a result that revchain saved, or damaged since; compute and save it again"
-            raise ValueError(f"{os.fspath(path)}: {reason}")
-        file.seek(0)
+        size = os.fstat(file.fileno()).st_size
         try:
             if ending == ".npz":
                 arrays = _arrays(file, size)
@@ -101,7 +93,8 @@ def load(path: str | os.PathLike[str]) -> Any:
                 whole = dataset.load()
                 return _loaded(whole.attrs.get(HEADER), {name: whole[name].values for name in whole.variables})
         except WRONG as error:
-            raise ValueError(f"{os.fspath(path)}: {error or type(error).__name__}") from error
+            words = str(error) if "save" in str(error) else f"{NOT_OURS} ({error or type(error).__name__})"
+            raise ValueError(f"{os.fspath(path)}: {words}") from error
 
 
 def _arrays(file: IO[bytes], size: int) -> dict[str, np.ndarray[Any, Any]]:
@@ -122,7 +115,9 @@ def _arrays(file: IO[bytes], size: int) -> dict[str, np.ndarray[Any, Any]]:
 
 
 def _loaded(header: Any, arrays: Mapping[str, Any]) -> Any:
-    said = {} if header is None else json.loads(str(header))
+    if header is None:
+        raise ValueError(NOT_OURS)
+    said = json.loads(str(header))
     if said.get("format") != FORMAT:
         other = said.get("format", "an earlier one")
         raise ValueError(f"is a file of another version, {other}; compute and save the result again")
@@ -194,15 +189,6 @@ def _dataset(dataset: Any, header: str, arrays: dict[str, Any]) -> Any:
     return dataset.assign(
         {name: ([f"{name}_{axis}" for axis in range(array.ndim)], array) for name, array in arrays.items()}
     )
-
-
-def _seal(file: IO[bytes], size: int | None = None) -> bytes:
-    """The end of a file of ours, from its first `size` bytes. Readers of .npz and .nc files ignore it."""
-    checksum = 0
-    while chunk := file.read(2**20 if size is None else min(2**20, size)):
-        checksum = zlib.crc32(chunk, checksum)
-        size = None if size is None else size - len(chunk)
-    return SEAL + checksum.to_bytes(4, "little")
 
 
 def _write_netcdf(dataset: Any, path: Path) -> None:
