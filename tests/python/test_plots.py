@@ -14,6 +14,10 @@ from revchain.plots.style import SPEED_UNITS
 RODS = rc.modes(rc.Chain.uniform_rods(120, length=0.36), count=8)
 
 
+def texts(axes):
+    return [label.get_text() for label in axes.get_xticklabels()]
+
+
 def clipped(axes):
     """The texts that leave the picture."""
     figure = axes.figure

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of a study."""
+"""Pictures of the results of a sweep: curves, maps and histograms."""
 
 from __future__ import annotations
 

@@ -138,7 +138,7 @@ def cells(sheet: Sheet) -> tuple[list[str], list[list[str]], list[str]]:
 
 
 def as_text(sheet: Sheet) -> str:
-    """Return the table as text, as a prompt shows it."""
+    """Return the table as text, in the form that a prompt shows."""
     headings, rows, notes = cells(sheet)
     padded, table = [], zip(headings, *rows, strict=True)
     for column in sheet.columns if rows else []:
