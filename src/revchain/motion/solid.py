@@ -238,12 +238,13 @@ class _Solid:
         """Add the pieces of a form of the table, in axes of the link whose y points from its upper pin along it."""
         table = forms()
         body, long = table["bodies"][form], np.maximum(np.linalg.norm(step, axis=1), 1e-9 * self.tall)
-        units = {"tall": self.tall, "gyration": gyration, "length": long[0], "rim": max(np.sqrt(2) * gyration, 0.04 * self.tall)}
+        rim = max(np.sqrt(2) * gyration, 0.04 * self.tall)
+        units = {"tall": self.tall, "gyration": gyration, "length": long[0], "rim": rim}
         unit, turn = units[body["unit"]], _turned_to(step / long[:, None])
-        start = 0.0 if body.get("from") == "pin" else along * long
+        start = 0.0 if body["unit"] == "length" else along * long  # from the pin, or from the centre of gravity
         for kind, shade, (x, y, z), scale, *tilt in body["pieces"]:
-            own = ("backward" if back else "forward") if shade == "spin" else shade
-            mesh = self._mesh("cylinder" if kind == "bar" else kind, table["colours"][own][1:])
+            colour = table["colours"].get(shade, table["colours"]["back" if back else "ahead"])
+            mesh = self._mesh("cylinder" if kind == "bar" else kind, colour[1:])
             node = self._node(f"{form} of {of}", parent, mesh=mesh)
             inside = np.column_stack([np.full_like(long, x * unit), start + y * unit, np.full_like(long, z * unit)])
             at = upper + _rotated(turn, inside)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The figure of a chain from numbers: links as bars, bodies in the forms of their names, support, arm, mast, and a trail.
+// The figure of a chain from numbers: links as bars, bodies in their forms, support, arm, mast, and a trail.
 import {
-  BoxGeometry, BufferGeometry, CylinderGeometry, Euler, Float32BufferAttribute, Group, LatheGeometry, Line,
-  LineBasicMaterial, Mesh, MeshStandardMaterial, Quaternion, SphereGeometry, TorusGeometry, Vector2, Vector3,
+  BufferGeometry, CylinderGeometry, Euler, Float32BufferAttribute, Group, LatheGeometry, Line,
+  LineBasicMaterial, Mesh, MeshStandardMaterial, Quaternion, Vector2, Vector3,
 } from "three";
 import table from "./forms.json";
 
@@ -10,13 +10,26 @@ const THIN = 0.006, THICK = 0.014, BALL = 0.035;  // radii, over the height or t
 const UP = new Vector3(0, 1, 0), SEATS = 8;  // places on a carousel
 const GREY = { body: "#595959", support: "#1a1a1a", axis: "#b3b3b3", others: "#aab4bd" };
 
-const turned = (points) => new LatheGeometry(points.map(([r, y]) => new Vector2(r, y)), 32);
+const turned = (points, around = 32) => new LatheGeometry(points.map(([r, y]) => new Vector2(r, y)), around);
+
+/** A part of a circle of this radius in `count` steps from its lowest point, turned about the y axis at a distance. */
+function round(radius, distance, count, part, around) {
+  const rim = Array.from({ length: count + 1 }, (_, k) => part * k / count - Math.PI / 2);
+  return turned(rim.map((angle) => [distance + radius * Math.cos(angle), radius * Math.sin(angle)]), around);
+}
+
+function box() {
+  const made = new CylinderGeometry(Math.SQRT1_2, Math.SQRT1_2, 1, 4).rotateY(Math.PI / 4).toNonIndexed();
+  made.computeVertexNormals();  // those of flat faces
+  return made;
+}
+
 const forms = {  // of radius or width 1, upright
   bar: new CylinderGeometry(1, 1, 1, 20),
-  ball: new SphereGeometry(1, 20, 10),
-  box: new BoxGeometry(1, 1, 1),
-  ring: new TorusGeometry(0.5, 0.15, 8, 14),
-  rim: new TorusGeometry(1, 0.05, 8, 40).rotateX(Math.PI / 2),
+  ball: round(1, 0, 10, Math.PI, 20),
+  box: box(),
+  ring: round(0.15, 0.5, 8, 2 * Math.PI, 14).rotateX(Math.PI / 2),
+  rim: round(0.05, 1, 8, 2 * Math.PI, 40),
   ...Object.fromEntries(Object.entries(table.profiles).map(([name, points]) => [name, turned(points)])),
 };
 const materials = new Map();
@@ -40,11 +53,12 @@ function put(parent, form, colour, at, scale, turn) {
 function bar(parent, from, to, radius, colour) {
   const way = to.clone().sub(from), length = Math.max(way.length(), 1e-9);
   const middle = from.clone().add(to).multiplyScalar(0.5);
-  put(parent, "bar", colour, middle, [radius, length, radius], new Quaternion().setFromUnitVectors(UP, way.divideScalar(length)));
+  const turn = new Quaternion().setFromUnitVectors(UP, way.divideScalar(length));
+  put(parent, "bar", colour, middle, [radius, length, radius], turn);
 }
 
-/** A link up to its pin `to` from the one it hangs from or stands on, with its body: pieces of forms.json in axes of the
- * link, whose y points along it. */
+/** A link up to its pin `to` from the one it hangs from or stands on, with its body: pieces of forms.json in axes of
+ * the link, whose y points along it. */
 function addLink(parent, link, to, from, { tall, ball, colour, others, odd }) {
   const paint = (own) => others ? GREY.others : own;
   const way = to.clone().sub(from), length = Math.max(way.length(), 1e-9);
@@ -62,10 +76,12 @@ function addLink(parent, link, to, from, { tall, ball, colour, others, odd }) {
   bar(parent, to, from, (link.stands ? THICK : THIN) * tall, paint(colour));
   const along = link.along * length, body = table.bodies[link.form];
   if (body) {
-    const rim = Math.max(Math.SQRT2 * link.gyration, 0.04 * tall), unit = { tall, length, rim, gyration: link.gyration }[body.unit];
+    const { gyration } = link, rim = Math.max(Math.SQRT2 * gyration, 0.04 * tall);
+    const unit = { tall, length, rim, gyration }[body.unit];
+    const spin = link.ahead < 0 ? "back" : "ahead";
     for (const [form, own, [x, y, z], scale, tilt] of body.pieces) {
-      const shade = table.colours[own === "spin" ? (link.ahead < 0 ? "backward" : "forward") : own];
-      const up = (body.from === "pin" ? 0 : along) + y * unit;
+      const shade = table.colours[own] ?? table.colours[spin];
+      const up = (body.unit === "length" ? 0 : along) + y * unit;  // or from the pin
       piece(form, shade, [x * unit, up, z * unit], scale.map((part) => part * unit), tilt);
     }
     return;
@@ -80,12 +96,11 @@ function addLink(parent, link, to, from, { tall, ball, colour, others, odd }) {
 
 /** The arc along which a point at this distance and height has come, fading away. */
 function trailOf(radius, height, turns, colour) {
-  const count = 49, line = new BufferGeometry(), places = [], shades = [];
-  const { r, g, b } = materialOf(colour).color;
-  for (let k = 0; k < count; k++) {
-    const angle = turns * k / (count - 1) * 2.2;
+  const line = new BufferGeometry(), places = [], shades = [], { color } = materialOf(colour);
+  for (let part = 1; part >= 0; part -= 0.02) {
+    const angle = turns * (1 - part) * 2.2;
     places.push(radius * Math.cos(angle), height, radius * Math.sin(angle));
-    shades.push(r, g, b, 0.75 * (1 - k / (count - 1)) ** 1.5);
+    shades.push(...color, part * part);
   }
   line.setAttribute("position", new Float32BufferAttribute(places, 3));
   line.setAttribute("color", new Float32BufferAttribute(shades, 4));
@@ -99,8 +114,9 @@ export function chainFigure({ pins, links, arm, carriage, top, floor, colour, tu
   const tall = Math.max(top - floor, ...pins.map(([x]) => 2 * Math.abs(x))), support = points.at(-1);
   const heavy = links.reduce((sum, { size }) => sum + size ** 3, 0);  // the heaviest as one, the others as parts of it
   const ball = tall * Math.min(BALL, Math.max(0.28 / heavy, 1.5 * THIN));
-  const end = new Vector3(arm, 0, 0), axis = new Vector3(0, 0, 0), ride = arm > 0 && links.some(({ form }) => form === "seat");
-  bar(root, new Vector3(0, floor, 0), new Vector3(0, top, 0), (ride ? 2.5 * THIN : THIN / 3) * tall, ride ? GREY.support : GREY.axis);
+  const end = new Vector3(arm, 0, 0), axis = new Vector3(0, 0, 0);
+  const ride = arm > 0 && links.some(({ form }) => form === "seat"), mast = ride ? 2.5 * THIN : THIN / 3;
+  bar(root, new Vector3(0, floor, 0), new Vector3(0, top, 0), mast * tall, ride ? GREY.support : GREY.axis);
   for (let place = 0; place < (ride ? SEATS : 1); place++) {
     const group = new Group(), others = place > 0;
     group.rotation.y = 2 * Math.PI * place / SEATS;
