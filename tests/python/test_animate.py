@@ -167,6 +167,7 @@ def test_places_of_pixels(tmp_path):
     from matplotlib.colors import to_rgb
 
     from revchain.motion.frames import Drawing, seen
+    from revchain.plots.style import house
 
     found = rc.modes(rc.Chain.uniform_rods(120, length=0.36), 6)
     shown = film(found, duration=1.0)
@@ -177,7 +178,7 @@ def test_places_of_pixels(tmp_path):
             x, y = seen(row[[5, 60]], figure.height[0, [5, 60]], drawing.across[nth])
             for column, line in drawing.ax.transData.transform(np.column_stack([x, y])):
                 around = picture[int(len(picture) - line) - 1 :, int(column) - 1 :][:3, :3] / 255.0
-                assert np.abs(around - to_rgb(f"C{nth}")).max(axis=2).min() < 0.25, (frame, nth)
+                assert np.abs(around - to_rgb(house(nth))).max(axis=2).min() < 0.25, (frame, nth)
 
 
 def test_arms_of_a_carousel_are_drawn_with_it():
@@ -194,7 +195,7 @@ def test_arms_of_a_carousel_are_drawn_with_it():
         )
     assert len([*drawing.frames(lambda done, total: None)]) == shown.frames
     arms = [places for line, places in drawn.items() if line.get_color() == "0.3"]
-    chains = [places for line, places in drawn.items() if len(line.get_xdata()) == 3 and line.get_color()[0] == "C"]
+    chains = [places for line, places in drawn.items() if len(line.get_xdata()) == 3 and line.get_color()[0] == "#"]
     assert len(arms) == len(chains) == len(shown.figures)
     for arm, chain in zip(arms, chains, strict=True):
         assert len(arm) == len(chain) == shown.frames

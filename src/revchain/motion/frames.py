@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ..plots.modes import BACKWARD, FORWARD, LINK
-from ..plots.style import plain
+from ..plots.style import house, plain
 from ..systems.extras import require
 from ..systems.numbers import Floats
 from .film import Complex, Figure, Film, side_by_side
@@ -90,7 +90,7 @@ class Drawing:
         elif not film.chart and figure.offset.imag.any():
             tips = np.array([figure.in_space(frame)[0] for frame in range(film.frames)])
             ax.plot(*seen(tips, figure.height[0, 0], at), color="0.85", linewidth=0.5)
-        colour = f"C{film.colours[nth]}"
+        colour = house(film.colours[nth])
         arms = ax.plot([], [], color="0.3", linewidth=2.0, zorder=2)[0]
         links = ax.plot(
             [], [], color=colour, linewidth=1.8, zorder=3, marker="o" if film.shows_pins else "", markersize=3.0
@@ -170,8 +170,8 @@ class Drawing:
         chart = self.film.chart
         assert chart is not None
         for nth, (line, x, y) in enumerate(zip(chart.lines, chart.x, chart.y, strict=True)):
-            ax.plot(*line, color=f"C{nth % 10}", linewidth=1.3)
-            dot = ax.plot([], [], "o", color=f"C{nth % 10}", markersize=7.0)[0]
+            ax.plot(*line, color=house(nth), linewidth=1.3)
+            dot = ax.plot([], [], "o", color=house(nth), markersize=7.0)[0]
 
             def move(frame: int, dot: Any = dot, x: Floats = x, y: Floats = y) -> None:
                 dot.set_data([x[frame]], [y[frame]])
@@ -232,7 +232,7 @@ def write_gif(film: Film, path: Path, progress: Progress) -> None:
 def _palette(figures: int) -> list[int]:
     """Return the colours of a film for a GIF, each in tints from full to white."""
     to_rgb = require("matplotlib.colors", "animate", "a .gif film").to_rgb
-    names = ["black", LINK, "0.7", *(f"C{k}" for k in {*range(min(figures, 10)), 0, 3})]
+    names = ["black", LINK, "0.7", *(house(k) for k in range(max(figures, 2)))]
     pure = np.array([to_rgb(name) for name in names])[:, None]
     tints = 1 - (1 - pure) * np.linspace(0.0, 1.0, TINTS)[:, None]
     return np.unique((255 * tints).round().astype(int).reshape(-1, 3), axis=0).ravel().tolist()

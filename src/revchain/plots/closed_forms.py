@@ -10,7 +10,9 @@ import numpy as np
 
 from ..closed_forms.table import described
 from ..systems.numbers import count, one_positive, refuse_beyond_memory, shown
-from .style import AXIS, WIDEST, SpeedUnit, axes_or_new, checked_axes, keep_room, legend_outside, new_figure
+from .style import (
+    AXIS, BLUE, ORANGE, WIDEST, SpeedUnit, axes_or_new, checked_axes, house, keep_room, legend_outside, new_figure,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -73,7 +75,7 @@ def plot_force_diagram(diagram: ForceDiagram, axes: tuple[Axes, Axes] | None = N
 
     figure.axvline(0.0, **AXIS)
     for m in range(count):
-        figure.plot(*pin[m : m + 2].T, color=f"C{m % 10}", linewidth=1.8, zorder=3)
+        figure.plot(*pin[m : m + 2].T, color=house(m), linewidth=1.8, zorder=3)
     figure.plot(*pin[:-1].T, linestyle="none", marker="o", markersize=5.0, color="black", zorder=4)
     figure.plot(0.0, 0.0, marker="v", color="black", markersize=8.0, zorder=4)
     if lettered:
@@ -81,7 +83,7 @@ def plot_force_diagram(diagram: ForceDiagram, axes: tuple[Axes, Axes] | None = N
             _letter(figure, f"P_{m + 1}", pin[m, 0], pin[m, 1], right=bool(pin[m, 0] >= 0))
         for m in range(count):  # G, H, K: the direction of thread or reaction above
             x, z = centre[m]
-            colour = f"C{m % 10}"
+            colour = house(m)
             figure.plot([x, 0.0, 0.0], [z, z, z + height], color=colour, linewidth=0.9, linestyle=":", zorder=2)
             figure.plot([0.0, x], [z + height, z], color=colour, linewidth=0.9, linestyle="--", zorder=2)
             _letter(figure, f"K_{m + 1}", 0.0, z + height, right=bool(x < 0), color=colour)
@@ -96,7 +98,7 @@ def plot_force_diagram(diagram: ForceDiagram, axes: tuple[Axes, Axes] | None = N
     level = np.cumsum(-load[:, 1])
     corners = np.concatenate([[[0.0, 0.0]], ray])
     for m in range(count):
-        colour = f"C{m % 10}"
+        colour = house(m)
         forces.plot([0.0, ray[m, 0]], [0.0, ray[m, 1]], color=colour, linewidth=1.8, zorder=3)
         forces.plot(*corners[m : m + 2].T, color="0.4", linewidth=1.0, zorder=2)
         forces.plot([0.0, ray[m, 0]], [level[m], level[m]], color="0.7", linewidth=0.8, linestyle=":", zorder=1)
@@ -143,8 +145,8 @@ def plot_funicular_polygon(
     left.vlines(x[1:-1], z[1:-1], line, color="0.7", linewidth=0.8, linestyle=":")
     left.plot(x[1:-1], np.full(len(x) - 2, line), linestyle="none", marker="o", markersize=5.0, color="0.4")
     for j in range(len(x) - 1):
-        left.plot(x[j : j + 2], z[j : j + 2], color=f"C{j % 10}", linewidth=1.8)
-        forces.plot([0.0, pull], [0.0, rise[j]], color=f"C{j % 10}", linewidth=1.8)
+        left.plot(x[j : j + 2], z[j : j + 2], color=house(j), linewidth=1.8)
+        forces.plot([0.0, pull], [0.0, rise[j]], color=house(j), linewidth=1.8)
     left.plot(x[1:-1], z[1:-1], linestyle="none", marker="o", markersize=5.0, color="black")
     left.plot(x[[0, -1]], z[[0, -1]], linestyle="none", marker="^", markersize=7.0, color="black")
     forces.plot([pull, pull], [rise[0], rise[-1]], color="0.4", linewidth=1.2)
@@ -246,7 +248,7 @@ def plot_waves(string: GyrostaticString, ax: Axes | None = None, *, speed: str =
     speeds = string.angular_speeds(phase)
     both = [unit.of(speeds.forward), unit.of(-speeds.backward)]
     labels = ["with the spin", "against the spin"][:: 1 if string.momentum >= 0 else -1]
-    for y, color, label in zip(both, ("C0", "C3"), labels, strict=True):
+    for y, color, label in zip(both, (BLUE, ORANGE), labels, strict=True):
         ax.plot(np.degrees(phase), y, color=color, label=label)
     ax.set(xlabel="phase difference between links (degrees)", ylabel=unit.label, xlim=(0, 180))
     usual = 2 * np.nanmedian(both)  # a wave of bodies without inertia across themselves has no bound at 180 degrees
@@ -277,8 +279,8 @@ def plot_vibration(string: GyrostaticString, angular_speed: float, links: int = 
     ax = axes_or_new(ax, 8.0, 4.0)
     pin = np.arange(links + 1)
     wave, angle = np.cos(phase * pin), turn * pin
-    ax.plot(pin, wave * np.cos(angle), color="C0", linewidth=1.2, label="in the initial plane")
-    ax.plot(pin, wave * np.sin(angle), color="C3", linewidth=1.2, label="perpendicular to it")
+    ax.plot(pin, wave * np.cos(angle), color=BLUE, linewidth=1.2, label="in the initial plane")
+    ax.plot(pin, wave * np.sin(angle), color=ORANGE, linewidth=1.2, label="perpendicular to it")
     for at in np.unique(np.linspace(0, links, min(MAX_LINKS_SEEN, links) + 1).astype(int)):
         across, along = 0.45 * np.sin(turn * at) * links / 30, 0.22 * np.cos(turn * at)
         ax.plot([at - across, at + across], [1.5 - along, 1.5 + along], color="black", linewidth=1.4)
@@ -315,20 +317,20 @@ def plot_bell(bell: BellAndClapper, ax: Axes | None = None) -> Axes:
     half, top = 0.32 * (lip - crown), min(-0.06 * ball, crown - 0.18 * ball)
     ax.fill([-half, half, half, -half], [crown, crown, top, top], color="0.88", edgecolor="0.45", zorder=1)
     ax.text(1.1 * half, (crown + top) / 2, "headstock", color="0.35", va="center", fontsize="small")
-    ax.plot([0.0, 0.0], [pin, pin + 1.08 * ball], color="C3", linewidth=2.2, zorder=3)
-    ax.plot(0.0, pin + ball, marker="o", markersize=13.0, color="C3", zorder=3)
+    ax.plot([0.0, 0.0], [pin, pin + 1.08 * ball], color=ORANGE, linewidth=2.2, zorder=3)
+    ax.plot(0.0, pin + ball, marker="o", markersize=13.0, color=ORANGE, zorder=3)
     marks = [
         (0.0, "axle", "^", "black"),
-        (pin, "pin of the clapper", "o", "C3"),
+        (pin, "pin of the clapper", "o", ORANGE),
         (h2, "centroid of the bell", "x", "0.3"),
-        (pin + h1, "centroid of the clapper", "x", "C3"),
+        (pin + h1, "centroid of the clapper", "x", ORANGE),
     ]
     for z, name, marker, colour in marks:
         ax.plot(0.0, z, marker=marker, linestyle="none", color=colour, markersize=8.0, label=name, zorder=4)
     side = -1.25 * wide[-1]
     for x, start, length, name, colour in (
         (side, 0.0, l2, "bell: $l_2$", "0.3"),
-        (0.82 * side, pin, l1, "clapper: $l_1$", "C3"),
+        (0.82 * side, pin, l1, "clapper: $l_1$", ORANGE),
     ):
         if abs(length) > 3 * lip:  # too far to be drawn
             ax.plot([], [], color=colour, linewidth=1.2, label=f"pendulum length, {name} = {length:.4g} m")

@@ -16,8 +16,8 @@ from ..results.motions import Response
 from ..results.sheet import digits
 from ..systems.numbers import integer, listed, shown
 from .style import (
-    ALL_BUT_HERTZ, AXIS, MOST_PINS_AS_DOTS, MOST_POINTS, WIDEST, SpeedUnit, axes_or_new, new_figure, plain, thinned,
-    with_speeds,
+    ALL_BUT_HERTZ, AXIS, BLUE, GREEN, MOST_PINS_AS_DOTS, MOST_POINTS, ORANGE, WIDEST, SpeedUnit, axes_or_new, house, new_figure,
+    plain, thinned, with_speeds,
 )
 
 if TYPE_CHECKING:
@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from ..systems.rig import Support
     from ..systems.system import System
 
-FORWARD, BACKWARD, LINK, FLUID = "C0", "C3", "0.35", "#e4f1f9"
-CARRIED = "C2"
+FORWARD, BACKWARD, LINK, FLUID = BLUE, ORANGE, "0.35", "#e4f1f9"
+CARRIED = GREEN
 ARM: dict[str, Any] = {"color": "black", "linewidth": 2.5, "zorder": 3, "clip_on": False}
 SUPPORT: dict[str, Any] = {"color": "black", "markersize": 7.0, "zorder": 4, "clip_on": False}
 FOLD = 0.3  # sideways, between the links that hang and those that stand on them, at rest
@@ -259,7 +259,7 @@ def plot_modes(
 ) -> Axes:
     """Draw the system at rest and, beside it, the mode shapes, each along its own axis; rings mark the nodes.
 
-    Forward modes of a rig with flywheels are blue, backward ones red; inverted links are thick.
+    Forward modes of a rig with flywheels are blue, backward ones orange; inverted links are thick.
 
     modes: Numbers of the modes to draw (for a rig, of both directions); the six slowest of this result if left out.
     carried: Response of the same system at one speed with all pins, drawn first, with its support on its circle.
@@ -324,7 +324,7 @@ def _width(labels: list[str], columns: int) -> float:
 def _draw_mode(ax: Axes, modes: Modes, straight: Straight, row: int, axis: float) -> None:
     shape, system = modes.shape[row], straight.system
     shape = shape / np.abs(shape).max()  # that of a cord with a tip may be largest anywhere
-    colour = f"C{(int(modes.number[row]) - 1) % 10}"
+    colour = house(int(modes.number[row]) - 1)
     if modes.has_momentum:
         colour = FORWARD if modes.angular_speed[row] > 0 else BACKWARD
     straight.axis(ax, axis)

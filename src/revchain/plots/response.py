@@ -12,7 +12,7 @@ from ..closed_forms.table import described
 from ..systems.extras import require
 from ..systems.numbers import Whole, boolean, word
 from .modes import Straight, beside_at_rest, plot_carried
-from .style import AXIS, MOST_PINS_AS_DOTS, SpeedUnit, legend_outside, pin_name, pins_among, thinned
+from .style import AXIS, MOST_PINS_AS_DOTS, SpeedUnit, house, legend_outside, pin_name, pins_among, thinned
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -63,7 +63,7 @@ def plot_response(
         for side, style in ((1, "-"), (-1, "--")):
             size = np.where(_with_neighbours(np.sign(y) == side), np.abs(y), np.nan)
             label = pin_name(pin) if side == 1 else None
-            ax.plot(unit.of(rate), size, style, color=f"C{number % 10}", linewidth=1.4, label=label)
+            ax.plot(unit.of(rate), size, style, color=house(number), linewidth=1.4, label=label)
     ax.axhline(found.support_radius, color="0.6", linewidth=0.8, zorder=0)
     for at in found.whirl_speeds if boolean(caller, "resonances", resonances) else ():
         ax.axvline(unit.of(at), **{**AXIS, "zorder": 0})
@@ -120,7 +120,7 @@ def plot_swing(
         return _draw_moments(found, ax, order)
     arc, time = found.arc_length, found.time[order]
     for number, pin in enumerate(chosen):
-        at, colour = found.offset[order, pin], f"C{number % 10}"
+        at, colour = found.offset[order, pin], house(number)
         label = pin_name(pin) if arc is None or not arc[pin] else f"point {pin}"
         drawn = thinned(np.abs(at) if turns else at)
         x, y = (at.real, at.imag) if kind == "path" else (time, at.real)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the pictures by matplotlib share. Plots take the style of the caller; `STYLE` is that of the documentation."""
+"""What the pictures by matplotlib share: the colours and frames of the documentation, also in axes of the caller."""
 
 from __future__ import annotations
 
@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 PALETTE = ("0072B2", "D55E00", "009E73", "CC79A7", "E69F00", "56B4E9", "000000")
 """Colours that can be told apart without seeing red or green (Okabe and Ito 2008)."""
 
+BLUE, ORANGE, GREEN = (f"#{colour}" for colour in PALETTE[:3])
+
 STYLE: dict[Any, Any] = {
     "axes.titlesize": "medium",
     "axes.spines.top": False,
@@ -28,7 +30,7 @@ STYLE: dict[Any, Any] = {
     "savefig.dpi": 200,
     "svg.hashsalt": "revchain",
 }
-"""For `matplotlib.rcParams.update`: letters of 10 points, the smallest of 8.3, and the colours of `PALETTE`."""
+"""For `matplotlib.rcParams.update`: what else a program sets to draw like the pictures of the package."""
 
 AXIS: dict[str, Any] = {"color": "0.6", "linestyle": "-.", "linewidth": 0.9, "zorder": 1}
 """The line of the axis about which a system turns."""
@@ -42,6 +44,11 @@ SPEED_UNITS = {  # what is measured in each unit, and the number of the unit for
 WIDEST = 8.0  # inches, of a new figure
 MOST_PINS_AS_DOTS = 40
 MOST_POINTS = 2000  # per curve: about the pixels of a large picture
+
+
+def house(number: int) -> str:
+    """Return a colour of the palette, which begins again after its last."""
+    return f"#{PALETTE[number % len(PALETTE)]}"
 
 
 class SpeedUnit:
@@ -106,7 +113,11 @@ def new_figure(width: float, height: float) -> Figure:
 
 def axes_or_new(ax: Axes | None, width: float, height: float) -> Axes:
     """Return the axes of the caller, or new axes on a figure of their own."""
-    axes: Axes = new_figure(width, height).add_subplot() if ax is None else checked_axes(ax)
+    if ax is not None:
+        return checked_axes(ax)
+    axes: Axes = new_figure(width, height).add_subplot()
+    for side in ("top", "right"):
+        axes.spines[side].set_visible(False)
     return axes
 
 
@@ -157,4 +168,4 @@ def half_waves_style(waves: int, named: set[int]) -> tuple[str, str | None]:
     """
     label = None if waves in named else f"{waves} half wave{'s' * (waves != 1)}"
     named.add(waves)
-    return f"C{(waves - 1) % 10}", label
+    return house(waves - 1), label

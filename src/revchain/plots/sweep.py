@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..systems.numbers import Floats, word
-from .style import WIDEST, axes_or_new, legend_outside, plain
+from .style import WIDEST, axes_or_new, house, legend_outside, plain
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -98,7 +98,7 @@ def _curves(grid: DataArray, values: Floats, result: DataArray, random: bool, ax
     """A curve for each mode, or the median of random numbers with bands of percentiles."""
     at = grid.to_numpy()
     for k, label in enumerate(_curve_labels(result)):
-        colour = f"C{k}"
+        colour = house(k)
         if random:
             for low, high, alpha in BANDS:
                 ends = np.nanpercentile(values[..., k], [low, high], axis=1)
@@ -122,7 +122,7 @@ def _histograms(values: Floats, result: DataArray, ax: Axes) -> Axes:
             low, high = np.percentile(found, [5, 95])
             text = f"{label}: median {median:.4g}\n5 to 95 %: {low:.4g} to {high:.4g}"
             bins = min(max(found.size // 100, 10), 50)
-            ax.hist(100 * (found / median - 1), bins, density=True, histtype="step", color=f"C{k}", label=text)
+            ax.hist(100 * (found / median - 1), bins, density=True, histtype="step", color=house(k), label=text)
     ax.set(xlabel=f"{_label(result)}, % above its median", ylabel="fraction of points per %")
     if ax.has_data():
         legend_outside(ax)
