@@ -502,6 +502,8 @@ async function start() {
     ask();
 }
 
+/** For tests: what `copy` copies. */
+window.copied = (what) => ({python: toPython, scene: toScene})[what](state);
 /** For tests: what is known once nothing is being computed. */
 window.settled = async () => {
     while (!now || now.busy || later.busy) await new Promise((done) => setTimeout(done, 5));

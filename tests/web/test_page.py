@@ -98,8 +98,8 @@ def test_the_program_and_the_scene_are_the_same_chain(open_page, name, tmp_path)
     page = open_page(f"x={name}")
     found = settled(page)
     names: dict[str, Any] = {}
-    exec(page.evaluate("toPython(state)"), names)  # prints, too
-    (tmp_path / "copied.toml").write_text(page.evaluate("toScene(state)"), encoding="utf-8")
+    exec(page.evaluate("copied('python')"), names)  # prints, too
+    (tmp_path / "copied.toml").write_text(page.evaluate("copied('scene')"), encoding="utf-8")
     scene = rc.load_scene(tmp_path / "copied.toml")
     for system in (names["system"], scene.system()):
         same_modes(found["modes"], system, scene.gravity_value())
