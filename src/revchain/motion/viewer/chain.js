@@ -28,7 +28,7 @@ const forms = {  // of radius or width 1, upright
   bar: new CylinderGeometry(1, 1, 1, 20),
   ball: round(1, 0, 10, Math.PI, 20),
   box: box(),
-  ring: round(0.15, 0.5, 8, 2 * Math.PI, 14).rotateX(Math.PI / 2),
+  ring: round(0.15, 0.5, 6, 2 * Math.PI, 10).rotateX(Math.PI / 2),
   rim: round(0.05, 1, 8, 2 * Math.PI, 40),
   ...Object.fromEntries(Object.entries(table.profiles).map(([name, points]) => [name, turned(points)])),
 };
@@ -94,17 +94,25 @@ function addLink(parent, link, to, from, { tall, ball, colour, others, odd }) {
   if (!link.plain) piece("ball", GREY.body, [0, along, 0], Array(3).fill(ball * Math.max(link.size, 0.3)));
 }
 
-/** The arc along which a point at this distance and height has come, fading away. */
+/** An arc of radius 1 that fades away. */
+const arc = new BufferGeometry(), places = [], shades = [];
+for (let part = 1; part >= 0; part -= 0.02) {
+  places.push(Math.cos(2.2 * (1 - part)), 0, Math.sin(2.2 * (1 - part)));
+  shades.push(1, 1, 1, part * part);
+}
+arc.setAttribute("position", new Float32BufferAttribute(places, 3));
+arc.setAttribute("color", new Float32BufferAttribute(shades, 4));
+
+/** The arc along which a point at this distance and height has come. */
 function trailOf(radius, height, turns, colour) {
-  const line = new BufferGeometry(), places = [], shades = [], { color } = materialOf(colour);
-  for (let part = 1; part >= 0; part -= 0.02) {
-    const angle = turns * (1 - part) * 2.2;
-    places.push(radius * Math.cos(angle), height, radius * Math.sin(angle));
-    shades.push(...color, part * part);
+  const name = `~${colour}`;
+  if (!materials.has(name)) {
+    materials.set(name, new LineBasicMaterial({ color: colour, vertexColors: true, transparent: true }));
   }
-  line.setAttribute("position", new Float32BufferAttribute(places, 3));
-  line.setAttribute("color", new Float32BufferAttribute(shades, 4));
-  return new Line(line, new LineBasicMaterial({ vertexColors: true, transparent: true }));
+  const trail = new Line(arc, materials.get(name));
+  trail.scale.set(radius, 1, radius * turns);
+  trail.position.y = height;
+  return trail;
 }
 
 /** {root, turning, trail} of a chain. Pins are [offset, height], lowest first; `links`, one fewer, are described by
