@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 import revchain as rc
-from revchain.motion.film import form_of
+from revchain.plots.forms import form_of
 
 ROOT = Path(__file__).resolve().parent.parent
 WEB = ROOT / "web"

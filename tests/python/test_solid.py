@@ -7,7 +7,7 @@ from moving import ALL, CHAIN, ONE, WHEELS, film
 
 import revchain as rc
 from revchain.motion import solid
-from revchain.motion.film import forms
+from revchain.plots.forms import forms
 
 gltf = pytest.importorskip("pygltflib")
 

@@ -3,10 +3,7 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, field, replace
-from functools import cache
-from importlib.resources import files
 from typing import Any
 
 import numpy as np
@@ -16,22 +13,6 @@ from ..systems.numbers import Floats, Whole
 
 Complex = NDArray[np.complex128]
 GAP = 1.15  # room of a figure over its width
-FORM_OF_WORD = {  # in the name of a link
-    "bell": "bell", "jar": "jar", "man": "person", "acrobat": "person", "chair": "seat", "seat": "seat", "load": "crate",
-    "hook": "hook", "wheel": "wheel", "gyrostat": "disc",
-}  # fmt: skip
-
-
-@cache
-def forms() -> dict[str, Any]:
-    """The table of forms of bodies, which 3D models and the live page share: colours, profiles and pieces."""
-    found: dict[str, Any] = json.loads(files("revchain").joinpath("motion/viewer/forms.json").read_text(encoding="utf-8"))
-    return found
-
-
-def form_of(name: str) -> str:
-    """Return the form of a link whose name has one of the words of the table; empty for a bar with a ball."""
-    return next((form for word, form in FORM_OF_WORD.items() if word in name.lower().split()), "")
 
 
 @dataclass(frozen=True)

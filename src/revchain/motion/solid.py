@@ -12,9 +12,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..plots.forms import colour_of, forms, unit_of
 from ..plots.style import PALETTE
 from ..systems.numbers import Floats, Whole
-from .film import Complex, Figure, Film, forms, pace, side_by_side
+from .film import Complex, Figure, Film, pace, side_by_side
 
 MOST_LINKS = 400  # of a longer chain only some of the pins are drawn
 FEWEST_KEYS, MOST_PLACES = 120, 60_000  # of links in time, about 30 bytes each
@@ -236,15 +237,11 @@ class _Solid:
         self, of: str, parent: int, form: str, upper: Floats, step: Floats, along: float, gyration: float, back: bool
     ) -> None:
         """Add the pieces of a form of the table, in axes of the link whose y points from its upper pin along it."""
-        table = forms()
-        body, long = table["bodies"][form], np.maximum(np.linalg.norm(step, axis=1), 1e-9 * self.tall)
-        rim = max(np.sqrt(2) * gyration, 0.04 * self.tall)
-        units = {"tall": self.tall, "gyration": gyration, "length": long[0], "rim": rim}
-        unit, turn = units[body["unit"]], _turned_to(step / long[:, None])
+        body, long = forms()["bodies"][form], np.maximum(np.linalg.norm(step, axis=1), 1e-9 * self.tall)
+        unit, turn = unit_of(body, self.tall, float(long[0]), gyration), _turned_to(step / long[:, None])
         start = 0.0 if body["unit"] == "length" else along * long  # from the pin, or from the centre of gravity
         for kind, shade, (x, y, z), scale, *tilt in body["pieces"]:
-            colour = table["colours"].get(shade, table["colours"]["back" if back else "ahead"])
-            mesh = self._mesh("cylinder" if kind == "bar" else kind, colour[1:])
+            mesh = self._mesh("cylinder" if kind == "bar" else kind, colour_of(shade, back)[1:])
             node = self._node(f"{form} of {of}", parent, mesh=mesh)
             inside = np.column_stack([np.full_like(long, x * unit), start + y * unit, np.full_like(long, z * unit)])
             at = upper + _rotated(turn, inside)

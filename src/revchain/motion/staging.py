@@ -13,6 +13,7 @@ import numpy as np
 
 from ..plots.modes import MOST_SHAPES, Straight, floating, rows_of
 from ..plots.shapes import words_of
+from ..plots.forms import form_of
 from ..plots.style import CAPTION_UNITS, MOST_PINS_AS_DOTS, thinned, with_speeds
 from ..results.base import Listed
 from ..results.branches import Branch, Branches
@@ -21,7 +22,7 @@ from ..results.motions import Response, Swing
 from ..results.shapes import SteadyShape, SteadyShapes
 from ..results.sheet import digits
 from ..systems.numbers import Floats, listed, one_positive, place_of
-from .film import Bodies, Chart, Complex, Figure, Film, form_of
+from .film import Bodies, Chart, Complex, Figure, Film
 
 TURN = 2 * math.pi
 CORD_POINTS = 101

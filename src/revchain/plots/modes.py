@@ -15,9 +15,10 @@ from ..closed_forms.table import described
 from ..results.motions import Response
 from ..results.sheet import digits
 from ..systems.numbers import integer, listed, shown
+from .forms import draw_form, form_of, forms, reach_of, unit_of
 from .style import (
-    ALL_BUT_HERTZ, AXIS, BLUE, GREEN, MOST_PINS_AS_DOTS, MOST_POINTS, ORANGE, WIDEST, SpeedUnit, axes_or_new, house, new_figure,
-    plain, thinned, with_speeds,
+    AXIS, BLUE, GREEN, HOUSE, MOST_PINS_AS_DOTS, MOST_POINTS, ORANGE, TIMED_UNITS, WIDEST, SpeedUnit, axes_or_new,
+    new_figure, plain, thinned, with_speeds,
 )
 
 if TYPE_CHECKING:
@@ -38,7 +39,9 @@ SPACING = 2.6  # between the axes of neighbouring shapes, each of which reaches 
 MOST_NAMES = 12
 NAME_WIDTH = 12  # letters in a line of a name
 COLUMN = 1.25  # inches between the axes of neighbouring shapes
-LETTER = 0.07  # inches
+PLOT_HEIGHT = 4.8  # inches of the frame of a new figure
+WIDEST_FORM = 0.9  # of a body, half its width
+LETTER, LETTER_OF_LABEL = 0.07, 0.088  # inches
 WHEEL = 0.6  # half the length of the bar of a flywheel
 
 
@@ -71,10 +74,13 @@ class Straight:
         return [plain(textwrap.fill(name, NAME_WIDTH)) for name in names or ()] if few else []
 
     def beside(self) -> Floats:
-        """Return how far each link reaches sideways: half the width of its flywheel, or 0."""
-        if not self.system.has_momentum:
-            return np.zeros(self.level.size - 1)
-        return np.where(self.system._momentum(1.0) != 0, WHEEL, 0.0)
+        """Return how far each link reaches sideways: half the width of its form or its flywheel, or 0."""
+        reach = np.zeros(self.level.size - 1)
+        if self.system.has_momentum:
+            reach[self.system._momentum(1.0) != 0] = WHEEL
+        for k, (form, unit, wide) in self._forms().items():
+            reach[k] = reach_of(form) * unit * wide
+        return reach
 
     def reach(self) -> float:
         """Return how far the names reach sideways if columns have their usual width."""
@@ -87,13 +93,31 @@ class Straight:
         """Height of each pin or point of a cord above the support, or above the lower end of a held system."""
         return self.level if self.upwards else -self.level
 
-    def finish(self, ax: Axes, bodies: bool = True) -> None:
+    def _ends(self, bodies: bool = True) -> tuple[float, float]:
+        """Return the lowest and the highest level of the picture."""
         low, high = float(self.level.min()), float(self.level.max())
         if bodies and self.few:
             middle, reach = self._middles(), math.sqrt(3) * self.base.radius_of_gyration
             low, high = min(low, float((middle - reach).min())), max(high, float((middle + reach).max()))
         margin = 0.04 * (high - low)
-        ends = (low - margin, high + margin)
+        return low - margin, high + margin
+
+    def _forms(self) -> dict[int, tuple[str, float, float]]:
+        """Return, for each link whose name has a form, the form, its unit and how wide a metre of it is drawn."""
+        base, names = self.base, getattr(self.base, "names", None)
+        if not self.few or names is None:
+            return {}
+        low, high = self._ends()
+        tall, found = float(np.ptp(self.level)), {}
+        for k, name in enumerate(names):
+            if form := form_of(name):
+                unit = unit_of(forms()["bodies"][form], tall, float(base.length[k]), float(base.radius_of_gyration[k]))
+                true = SPACING / COLUMN * PLOT_HEIGHT / (high - low)  # numbers of the axis for a metre
+                found[k] = form, unit, min(true, WIDEST_FORM / (reach_of(form) * unit))
+        return found
+
+    def finish(self, ax: Axes, bodies: bool = True) -> None:
+        ends = self._ends(bodies)
         ax.set_ylim(*(ends if self.upwards else ends[::-1]))
         what = "depth below the support"
         if self.upwards:
@@ -174,14 +198,19 @@ class Straight:
         middle = self._middles()
         heavy, floats = weight > 0, floating(system)
         reach = math.sqrt(3) * chain.radius_of_gyration  # of a uniform rod of that inertia
-        long = heavy & (reach > 0)
+        named = np.isin(np.arange(chain.size), [*self._forms()])
+        long = heavy & (reach > 0) & ~named
         ax.vlines(across[long], (middle - reach)[long], (middle + reach)[long], color=LINK, linewidth=6.0, alpha=0.35)
         face = np.where(floats, "white", LINK)
         size = 20 + 60 * np.sqrt(weight / weight.max())
-        ax.scatter(across[heavy], middle[heavy], s=size[heavy], c=face[heavy], edgecolors=LINK, zorder=3)
+        for k, (form, unit, wide) in self._forms().items():
+            down = float(np.sign(level[k] - level[k + 1]))
+            draw_form(ax, form, float(across[k]), float(level[k + 1]), down, float(chain.centroid[k]), unit, wide)
+        dots = heavy & ~named
+        ax.scatter(across[dots], middle[dots], s=size[dots], c=face[dots], edgecolors=LINK, zorder=3)
         ax.plot(across, level[1:], "o", color="white", markeredgecolor=LINK, markersize=4.0, zorder=4)
         for sign, colour in ((1, FORWARD), (-1, BACKWARD)) if system.has_momentum else ():
-            spun = np.flatnonzero(np.sign(system._momentum(1.0)) == sign)
+            spun = np.flatnonzero((np.sign(system._momentum(1.0)) == sign) & ~named)
             ax.hlines(middle[spun], across[spun] - WHEEL, across[spun] + WHEEL, color=colour, linewidth=4.0, zorder=3)
         for x, z, name, far in zip(across, middle, self.names(), self.beside(), strict=False):
             side = -1 if x < across.max() else 1  # to the left where links stand on the right
@@ -264,7 +293,7 @@ def plot_modes(
     modes: Numbers of the modes to draw (for a rig, of both directions); the six slowest of this result if left out.
     carried: Response of the same system at one speed with all pins, drawn first, with its support on its circle.
     speed: Unit of the speeds: ``"rad/s"``, ``"rpm"``, ``"Hz"`` (turns per second) or ``"s"`` (the period). If left out,
-        each speed is written in rad/s, in rpm and as a period.
+        each speed is written in rpm and as a period.
     raises: If `modes` has a number that is not in this result, the result is empty, or `carried` is not such a
         response.
 
@@ -273,7 +302,7 @@ def plot_modes(
     'depth below the support (m)'
     """
     caller, system = "revchain.Modes.plot", found.system
-    units = ALL_BUT_HERTZ if speed is None else [SpeedUnit(caller, speed)]
+    units = TIMED_UNITS if speed is None else [SpeedUnit(caller, speed)]
     if carried is not None and not isinstance(carried, Response):
         raise TypeError(f"{caller}: carried must be a revchain.Response, got {shown(carried)}")
     if carried is not None and (carried.system != system or carried.offset.shape != (system.size + 1,)):
@@ -304,12 +333,11 @@ def plot_modes(
         growth = digits(found.other.growth_rate.max(initial=0.0), 4)
         said = f"no steady\nmotion:\ngrows as\nexp({growth} t),\nt in s"
         ax.text(ticks[-1] + SPACING, float(straight.level.mean()), said, ha="center", va="center")
-    ax.set_xticks(ticks, labels, fontsize="small")
+    ax.set_xticks(ticks, labels)
     ax.set_xlim(-SPACING / 2, aside + SPACING * (columns - 0.5))
     straight.finish(ax)
     if len(rows) or carried is not None:
-        turn = "\n" if columns < 4 else " "
-        ax.set_xlabel(f"offset from the axis, each mode to its own scale;{turn}rings mark the nodes", fontsize="small")
+        ax.set_xlabel("offset from the axis, each to its own scale" + "; rings: nodes" * (columns > 3))
     if system._fluid:
         ax.set_facecolor(FLUID)
     return ax
@@ -318,13 +346,13 @@ def plot_modes(
 def _width(labels: list[str], columns: int) -> float:
     """Return the inches of a figure whose labels do not meet: at most `WIDEST` if they are short."""
     longest = max([len(line) for label in labels for line in label.splitlines()])
-    return max(min(1.2 + COLUMN * columns, WIDEST), 0.9 + LETTER * (longest + 1) * columns)
+    return max(min(1.2 + COLUMN * columns, WIDEST), 0.9 + LETTER_OF_LABEL * (longest + 1) * columns)
 
 
 def _draw_mode(ax: Axes, modes: Modes, straight: Straight, row: int, axis: float) -> None:
     shape, system = modes.shape[row], straight.system
     shape = shape / np.abs(shape).max()  # that of a cord with a tip may be largest anywhere
-    colour = house(int(modes.number[row]) - 1)
+    colour = HOUSE[(int(modes.number[row]) - 1) % len(HOUSE)]
     if modes.has_momentum:
         colour = FORWARD if modes.angular_speed[row] > 0 else BACKWARD
     straight.axis(ax, axis)

@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 PALETTE = ("0072B2", "D55E00", "009E73", "CC79A7", "E69F00", "56B4E9", "000000")
 """Colours that can be told apart without seeing red or green (Okabe and Ito 2008)."""
 
-BLUE, ORANGE, GREEN = (f"#{colour}" for colour in PALETTE[:3])
+HOUSE = tuple(f"#{colour}" for colour in PALETTE)
+BLUE, ORANGE, GREEN, *_ = HOUSE
 
 STYLE: dict[Any, Any] = {
     "axes.titlesize": "medium",
@@ -48,7 +49,7 @@ MOST_POINTS = 2000  # per curve: about the pixels of a large picture
 
 def house(number: int) -> str:
     """Return a colour of the palette, which begins again after its last."""
-    return f"#{PALETTE[number % len(PALETTE)]}"
+    return HOUSE[number % len(HOUSE)]
 
 
 class SpeedUnit:
@@ -77,7 +78,7 @@ class SpeedUnit:
 
 
 CAPTION_UNITS = [SpeedUnit("captions", unit) for unit in ("rad/s", "rpm")]
-ALL_BUT_HERTZ = [*CAPTION_UNITS, SpeedUnit("captions", "s")]
+TIMED_UNITS = [SpeedUnit("captions", unit) for unit in ("rpm", "s")]
 
 
 def with_speeds(names: Iterable[str], speeds: Iterable[float], units: list[SpeedUnit]) -> list[str]:
