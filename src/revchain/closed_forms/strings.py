@@ -83,11 +83,11 @@ class FunicularPolygon(Result):
     >>> import revchain as rc
     >>> rc.funicular_polygon([1.0, 1.0], [0.0, 1.0, 2.0, 3.0], horizontal_tension=0.5)
     FunicularPolygon: 2 weights, horizontal tension 0.5
-    point position    height   weight  tension in next segment
-        0  0.00000   0.00000      nan                  1.11803
-        1  1.00000  -2.00000  1.00000                 0.500000
-        2  2.00000  -2.00000  1.00000                  1.11803
-        3  3.00000   0.00000      nan                      nan
+    point  position    height   weight  tension in next segment
+        0   0.00000   0.00000      nan                  1.11803
+        1   1.00000  -2.00000  1.00000                 0.500000
+        2   2.00000  -2.00000  1.00000                  1.11803
+        3   3.00000   0.00000      nan                      nan
     """
 
     __slots__ = ()
