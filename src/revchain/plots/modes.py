@@ -255,7 +255,8 @@ def plot_system(system: System, ax: Axes | None = None) -> Axes:
 
 def beside_at_rest(system: System | None, ax: Axes | None, width: float, height: float) -> Axes:
     """Return the axes of the caller, or new axes, beside the system at rest if its links are few."""
-    if ax is not None or system is None or not Straight(system).few:
+    bent = getattr(system, "span", None) is not None  # it cannot hang straight
+    if ax is not None or system is None or bent or not Straight(system).few:
         return axes_or_new(ax, width, height)
     straight = Straight(system)
     own = 1.1 + 0.7 * max(1.0, straight.reach() / 1.3)
@@ -330,8 +331,8 @@ def plot_modes(
     for row, at in zip(rows, ticks[before:], strict=True):
         _draw_mode(ax, found, straight, int(row), at)
     if not len(rows):
-        growth = digits(found.other.growth_rate.max(initial=0.0), 4)
-        said = f"no steady\nmotion:\ngrows as\nexp({growth} t),\nt in s"
+        growth = float(found.other.growth_rate.max(initial=0.0))
+        said = f"falls over:\na disturbance\ngrows e times\nin {digits(1 / growth, 3)} s" if growth else "no steady\nmotion"
         ax.text(ticks[-1] + SPACING, float(straight.level.mean()), said, ha="center", va="center")
     ax.set_xticks(ticks, labels)
     ax.set_xlim(-SPACING / 2, aside + SPACING * (columns - 0.5))

@@ -33,6 +33,7 @@ BY_WEIGHT = {
     "moment_of_inertia": "moment of inertia (weight x length^2)",
     "effective_energy": "effective energy (weight x length)",
 }
+FEW_BIRTHS = 3  # speeds that are written side by side
 CLOSEST = 0.03  # of the width, between births whose speeds are written out
 
 
@@ -130,8 +131,8 @@ def plot_branches(
     """Draw the bifurcation diagram: a quantity of each branch against the speed.
 
     quantity: Quantity to draw, as in `Branch.plot`.
-    returns: The drawing. Colours show half waves, hollow marks folds. Isolated branches are dashed, with the speed
-        at which each starts. The title says whether the diagram is `complete`.
+    returns: The drawing. Colours show half waves, hollow marks folds. Isolated branches are dashed, and the speeds at
+        which they start are above the frame. The title says whether the diagram is `complete`.
     raises: If `quantity` is another word, or one that the system does not have.
 
     >>> ax = rc.branches(rc.Chain.uniform_plummets(3, length=3.0), min_conical_height=0.04).plot()
@@ -176,6 +177,10 @@ def _draw_branches(branches: Sequence[Branch], ax: Axes | None, quantity: str | 
     ax.grid(color="0.9", linewidth=0.6)
     ax.set_axisbelow(True)
     if named:
+        if births:
+            ax.plot([], [], "--", color="0.3", linewidth=1.6, label="isolated, from\nthe speed above")
+        if any(len(branch.folds) for branch in branches):
+            ax.plot([], [], "D", color="0.3", markersize=5.0, markerfacecolor="none", label="fold")
         handles, labels = ax.get_legend_handles_labels()
         order = sorted(range(len(labels)), key=lambda i: curves.get(handles[i], np.inf))  # those of the caller are last
         legend_outside(ax, handles=[handles[i] for i in order], labels=[labels[i] for i in order])
@@ -195,5 +200,4 @@ def _mark_births(ax: Axes, births: list[tuple[float, str]]) -> None:
     if not ticks:
         return
     above = ax.secondary_xaxis("top")
-    above.set_xticks(ticks, [f"{at:.5g}" for at in ticks], rotation=90, fontsize="small")
-    above.set_xlabel("pairs appear at", fontsize="small")
+    above.set_xticks(ticks, [f"{at:.4g}" for at in ticks], rotation=0 if len(ticks) <= FEW_BIRTHS else 90)
