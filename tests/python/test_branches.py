@@ -127,11 +127,10 @@ def test_pictures():
     pytest.importorskip("matplotlib")
     diagram = rc.branches(plummets(3), max_angular_speed=5.0, gravity=1.0)
     ax = diagram.plot()
-    waves = ["1 half wave", "2 half waves", "3 half waves"]
-    assert [text.get_text() for text in ax.get_legend().get_texts()] == waves
+    named = ["1 half wave", "2 half waves", "3 half waves", "isolated, from\nthe speed above", "fold"]
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == named
     (above,) = ax.child_axes  # speeds of births stand above the frame: no label hides a loop
-    assert [text.get_text() for text in above.get_xticklabels()] == ["3.9038"] and len(ax.texts) == 0
-    assert above.get_xlabel() == "pairs appear at"
+    assert [text.get_text() for text in above.get_xticklabels()] == ["3.904"] and len(ax.texts) == 0
     for thing in (diagram, diagram[0]):
         quantities = ("lowest_inclination", "tip_radius", "top_tension", "moment_of_inertia", "effective_energy")
         labels = [thing.plot(quantity=quantity).get_ylabel() for quantity in quantities]
