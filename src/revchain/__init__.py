@@ -14,7 +14,7 @@ Questions
 Results
     Modes, SteadyShapes, SteadyShape, Branches, Branch,
     Stability, ForceDiagram, Response, Swing, Tuned, Fitted, Explanation, Sensitivity, Uncertainty; ``load`` reads the
-    files that their method ``save`` wrote. Variants of these, and classes of their fields, are in the reference and can
+    files that their method ``save`` wrote. Variants of these, and classes of their fields, are in the reference.
 Closed forms
     conical_pendulum, plummet, two_links, elliptic, hoop, bell_and_clapper, funicular_polygon, transverse_modes,
     recurrence_matrices; BellAndClapper, BufferImpact, GovernorMotion, GyrostaticString, SkippingRope, TortuousRope,

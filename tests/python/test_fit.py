@@ -10,7 +10,7 @@ from exact import heights_of, stored_links
 from rigs import random_chain
 
 import revchain as rc
-from revchain.systems.datum import read
+from revchain.systems.datum import datum_at
 
 G = 9.80665
 CRANE = rc.Chain(mass=[2500.0, 400.0], length=[6.0, 24.0])
@@ -97,7 +97,7 @@ def test_what_was_changed_is_found_again(name):
     system, numbers, changes = CASES[name]
     true, values = system, []
     for path, factor in changes.items():
-        datum = read("", true, path, G)
+        datum = datum_at("", true, path, G)
         values.append(factor * datum.present)
         true = datum.change(values[-1])
     found = rc.fit(system, {k: (n, 1e-3 * n) for k, n in speeds(true, numbers).items()}, vary=list(changes))
@@ -112,7 +112,7 @@ def test_what_was_changed_is_found_again(name):
     for path, value in zip(changes, found.value, strict=True):
         near = []
         for x in (-2, -1, 1, 2):
-            moved = read("", found.system, path, G).change(value * (1 + 1e-3 * x))
+            moved = datum_at("", found.system, path, G).change(value * (1 + 1e-3 * x))
             near.append(np.array([*speeds(moved, numbers).values()]))
         slopes.append((near[0] - 8 * near[1] + 8 * near[2] - near[3]) / (12e-3 * value))
     scaled = np.column_stack(slopes) / (1e-3 * np.abs(found.measured))[:, None]

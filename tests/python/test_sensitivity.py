@@ -16,7 +16,7 @@ from tier import by_tier
 
 import revchain as rc
 from revchain import Chain, _core
-from revchain.systems.datum import read
+from revchain.systems.datum import datum_at
 
 QUANTITIES = ("mass", "length", "centroid", "radius_of_gyration", "length_in_proportion")
 
@@ -294,7 +294,7 @@ def test_derivatives_along_every_path_against_differences(name, gravity):
     found, compared = rc.modes(system, "all", gravity=gravity), 0
     s, speeds = found.sensitivity, found.angular_speed
     for path in paths_of(system, name):
-        datum = read("", system, path, gravity)
+        datum = datum_at("", system, path, gravity)
         assert datum.change(datum.present) == system or "momentum" in path
         field, part = datum.rate or (datum.quantity, np.arange(3) == datum.link)
         if datum.rate is None:

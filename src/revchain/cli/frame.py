@@ -91,7 +91,7 @@ class Stop(Exception):
 
 
 def guarded(command: Callable[Arguments, None]) -> Callable[Arguments, None]:
-    """Turn the errors of a command into one line on stderr and an exit code."""
+    """Return the command with its errors turned into a message on stderr and an exit code."""
 
     @functools.wraps(command)
     def wrapper(*args: Arguments.args, **kwargs: Arguments.kwargs) -> None:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # mypy: disable-error-code="empty-body"
+# The decorator of table.py gives each function its body, a call of the compiled formula, and completes its docstring.
 """The conical pendulum: height, speed, period and gravity from one another.
 
 The conical height is ``gravity / angular_speed**2``: the depth of the circling weight below its support, for a thread

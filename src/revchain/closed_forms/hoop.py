@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # mypy: disable-error-code="empty-body"
+# The decorator of table.py gives each function its body, a call of the compiled formula, and completes its docstring.
 """An endless chain that runs in a circle (the rim of a wheel, a tyre), and the nearly straight whirling string.
 
 A tension is given as the length of chain of equal weight. Source: Greenhill (1908), section 5; numbers in brackets

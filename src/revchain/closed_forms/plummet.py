@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # mypy: disable-error-code="empty-body"
+# The decorator of table.py gives each function its body, a call of the compiled formula, and completes its docstring.
 """One point mass (the paper's plummet) on threads: circling at any inclination, held by a second thread, carried round.
 
 All lengths are in one unit; tensions are divided by the weight; angles are in radians. Source: Greenhill (1908),

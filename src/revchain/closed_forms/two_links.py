@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # mypy: disable-error-code="empty-body"
+# The decorator of table.py gives each function its body, a call of the compiled formula, and completes its docstring.
 """Closed forms for two links (the double pendulum), or for one link on a support that yields.
 
 For small inclinations the conical heights are the roots of a quadratic, computed without cancellation. At any

@@ -22,9 +22,9 @@ class Figure:
     label: str
     offset: Complex  # shape (1 or F, n), x + i y as drawn, m, in a frame that turns with the figure; free end first
     height: Floats  # shape (1 or F, n), upwards, m
-    scale: Floats  # shape (1 or F,), offsets drawn over those of the result
-    phase: Floats  # shape (F,), angle by which that frame has turned, rad
-    speed: Floats  # shape (1 or F,), angular speed of that frame, rad/s
+    scale: Floats  # shape (1 or F,), drawn offset divided by the offset of the result
+    phase: Floats  # shape (F,), angle by which the figure has turned in each frame of the film, rad
+    speed: Floats  # shape (1 or F,), angular speed of the figure, rad/s
     captions: tuple[str, ...]  # 1 or F
 
     @property
@@ -44,7 +44,7 @@ class Figure:
         return row
 
     def caption(self, frame: int) -> str:
-        """Return the text above the figure in one frame."""
+        """Return the text below the figure in one frame."""
         return self.captions[0 if len(self.captions) == 1 else frame]
 
 
@@ -90,8 +90,8 @@ class Film:
     frames_per_second: float
     time_scale: float  # seconds of motion in one second of film
     names: tuple[str, ...]  # of links
-    stout: NDArray[np.bool_]  # links that stand
-    rings: NDArray[np.bool_]  # links of a chain of many equal rods
+    stout: NDArray[np.bool_]  # whether each link is inverted, which is drawn thick
+    rings: NDArray[np.bool_]  # whether each link is drawn as a ring, as one of many equal rods
     shows_pins: bool = False
     is_held: bool = False  # at both ends
     chart: Chart | None = None
@@ -143,7 +143,10 @@ class Film:
         return f"{pull}; {pace(self.time_scale)}" + f"; {self.note}" * bool(self.note)
 
     def thinned(self, frames: int, pins: int) -> Film:
-        """The film with at most so many frames and pins, first and last included; bodies need all pins."""
+        """Return the film with at most `frames` frames and `pins` pins, evenly spaced, the first and the last included.
+
+        If pins are left out, the bodies are left out, too.
+        """
         rows = _spread(self.frames, frames)
         pin = _spread(self.figures[0].offset.shape[1], pins)
         has_all_pins = pin.size == self.figures[0].offset.shape[1]

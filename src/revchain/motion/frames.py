@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Films as pictures: .gif and .mp4, drawn by matplotlib, only what moves anew in each frame."""
+"""Writes a film as .gif or .mp4. Matplotlib draws the background once, and in each frame only what moves."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Branches of steady shapes that start at the critical speeds."""
+"""`branch` follows one branch of steady shapes; `branches` finds all of them up to a speed, isolated ones too."""
 
 from __future__ import annotations
 
@@ -61,11 +61,12 @@ def branch(
     Returns
     -------
     Branch
-        The points of the branch, from the critical speed of the mode to the given speed. The first point is the
-        straight chain. It is the only one if double precision cannot separate the end from it; ``end`` is then
-        ``stuck``. With the support off the axis the branch starts at a tenth of a speed: of the given speed, or of
-        the first critical speed of the rig with its support on the axis, whichever is lower. The branch of a held
-        system ends where a link becomes slack or a cord folds. Accuracy: numbers to 1e-12; folds to 1e-6 of the arc,
+        The points of the branch. The branch of a hanging system runs from the critical speed of its mode to the given
+        speed; its first point is the straight chain. It is the only one if double precision cannot separate the end
+        from it; ``end`` is then ``stuck``. With the support off the axis the branch starts at a tenth of the lower of
+        two speeds: the given speed, and the first critical speed of the rig with its support on the axis. The branch of
+        a held system runs from the given speed to lower ones and, after a fold, back; it ends where a link becomes
+        slack or a cord folds. Accuracy: numbers to 1e-12; folds to 1e-6 of the arc,
         their heights to 1e-13, those of a cord to 1e-9.
 
     Raises
@@ -131,9 +132,9 @@ def branches(
     direction : {1, -1}, optional
         Direction of rotation; only a rig with flywheels depends on it.
     budget : int, optional
-        Largest number of links to visit for the list of all shapes at each of 16 speeds, see `steady_shapes`, and a
-        third of it for the proof that no branch is missing, at 0.1 to 1 microsecond each. Not used for cords and held
-        systems.
+        Limit of the work. The list of all shapes may visit this many links at each of 16 speeds (see `steady_shapes`).
+        The proof that no branch is missing may use a third of this number. A visit takes 0.1 to 1 microsecond. Not used
+        for cords and held systems.
 
     Returns
     -------
@@ -156,7 +157,8 @@ def branches(
     A listed shape that matches no branch lies on an isolated branch, which is then followed in both directions.
     ``consistent`` is true if every list is proved complete and each of its shapes matches exactly one branch.
 
-    Loops can open and close between two of the speeds. Interval arithmetic therefore splits the plane of conical
+    An isolated branch that is a closed loop can begin and end between two of the 16 speeds, so that no list contains it.
+    Interval arithmetic therefore splits the plane of conical
     height and tangent of the lowest link until each part has no fold, or has all its shapes on one curve through a
     known branch. Loops found in this way are followed. ``complete`` is true if this succeeds for every part; it is
     false if links could hang at several inclinations. The proof relies on `branch`, whose steps are checked, not

@@ -15,13 +15,13 @@ from ..results.fitted import Fitted
 from ..results.sensitivity import rig_derivatives
 from ..systems.chain import Chain
 from ..systems.cord import Cord
-from ..systems.datum import Datum, read, refuse_overlap
+from ..systems.datum import Datum, datum_at, refuse_overlap
 from ..systems.extras import require
 from ..systems.held import Held
 from ..systems.numbers import STANDARD_GRAVITY, Floats, Whole, integer, one_positive, real, shown
 from ..systems.rig import Rig
 from ..systems.system import System
-from ..systems.units import are_there, in_si, unpacked
+from ..systems.units import has_units, in_si, unpacked
 from .modes import straight
 from .refuse import no_system
 from .speeds import Speeds, speeds
@@ -119,7 +119,7 @@ def fit(
             f"{_CALLER}: vary has {len(paths)} data for {len(number)} measured speed{'s' * (len(number) > 1)}; vary at most "
             f"{len(number)}, or measure more modes"
         )
-    data = [read(_CALLER, system, path, g) for path in paths]
+    data = [datum_at(_CALLER, system, path, g) for path in paths]
     refuse_overlap(_CALLER, paths)
     turns = system.has_momentum or any("flywheels" in path for path in paths)
     if (number < 0).any() and not turns:
@@ -149,7 +149,7 @@ class _Model:
         if self.kept[0] != free.tobytes():
             system = self.system
             for datum, value in zip(self.data, self.values(free), strict=True):
-                system = read(_CALLER, system, datum.path, self.gravity).change(float(value))
+                system = datum_at(_CALLER, system, datum.path, self.gravity).change(float(value))
             self.kept = (free.tobytes(), (system, speeds(_CALLER, system, self.number, self.gravity)))
         found: tuple[Any, Speeds] = self.kept[1]
         return found
@@ -197,7 +197,10 @@ class _Model:
 
 
 def _least(model: _Model, start: Floats) -> tuple[Floats, bool, _Known]:
-    """The minimum, whether it was reached, and what the data there are known to; undetermined data keep their start."""
+    """Return the variables at the minimum, whether the search converged, and what the data there are known to.
+
+    Combinations that the measurements do not determine stay at their start.
+    """
     model.at(start)  # raises the errors of the start
     optimize, hold = require("scipy.optimize", "fit", _CALLER), np.empty((0, len(start)))
     for _ in range(2):
@@ -373,7 +376,7 @@ def _measurement(number: int, value: Any) -> tuple[float, float | None]:
         part = real(caller, "rtol (the uncertainty)", spread)
     else:
         deviation, as_period = _speed_or_period(caller, "uncertainty", spread)
-        if are_there(value) != are_there(spread) or as_period != is_period:
+        if has_units(value) != has_units(spread) or as_period != is_period:
             raise ValueError(f'{caller}: give speed and uncertainty in the same unit, or "1 %", got {shown((value, spread))}')
         part = deviation / size
     if not 0 < part < math.inf:
@@ -390,7 +393,7 @@ def _measurement(number: int, value: Any) -> tuple[float, float | None]:
 
 def _speed_or_period(caller: str, name: str, value: Any) -> tuple[float, bool]:
     """A number in rad/s or, where its unit is that of a time, in s."""
-    if are_there(value):
+    if has_units(value):
         try:
             return float(in_si(caller, "period", value)), True
         except (ValueError, TypeError):

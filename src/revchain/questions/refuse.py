@@ -9,7 +9,7 @@ from ..systems.numbers import shown
 
 
 def no_system(caller: str, system: Any) -> TypeError:
-    """The error for an argument that is not a system, in a question that all systems answer."""
+    """Return the TypeError for an argument that is not a system, in a question that every kind of system answers."""
     return TypeError(f"{caller}: system must be a revchain.Chain, Rig, Cord or Held, got {shown(system)}")
 
 

@@ -15,7 +15,7 @@ from .. import _core
 from ..results.tuned import Tuned
 from ..systems.chain import Chain, compiled
 from ..systems.cord import Cord
-from ..systems.datum import Datum, read
+from ..systems.datum import Datum, datum_at
 from ..systems.held import Held
 from ..systems.numbers import STANDARD_GRAVITY, count, exactly_one, height_of, one_positive, real, shown
 from ..systems.rig import Rig
@@ -157,7 +157,7 @@ def tune(
         raise ValueError(f"{_CALLER}: top_tension is for a system held at a span; leave it out, got {shown(top_tension)}")
     if system._is_held and not bent:
         straight(_CALLER, of, g)
-    datum = read(_CALLER, system, vary, g)
+    datum = datum_at(_CALLER, system, vary, g)
     height, speed = _height_and_speed(name, value, g)
     if system._kind == "chain" and vary != "length":
         return _link(of, datum, number, name, value, g, between)

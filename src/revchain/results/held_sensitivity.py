@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sensitivity of a steady shape of a chain held at both ends to the speed and to its data."""
+"""Derivatives of a steady shape of a chain held at both ends by the speed, the data of the chain and those of its ends."""
 
 from __future__ import annotations
 
@@ -30,7 +30,9 @@ class _HeldChain:
         X + E (y_0 - b) - carriage y_0 / lambda = 0,    or y_0 = b,    y_0 = y + sum of a sin d
         sum of a cos d = span
 
-    The unknowns are the inclinations, the offset y of the upper end, X and Z.
+    The unknowns are the inclinations d, the offset y of the upper end, X and Z. Here a is the length of a link, y_0 the offset
+    of the lower end, lambda the conical height; E, b and carriage are the stiffness of an end, its distance from the axis and
+    the mass that moves with it, in the same units.
     """
 
     def __init__(self, shape: SteadyShape) -> None:
@@ -87,7 +89,7 @@ class _HeldChain:
         return found
 
     def changes(self) -> dict[str, Change]:
-        """The changes by each datum of the chain and of the upper end, as for a chain that hangs from there."""
+        """Return, for each datum of the chain and of the upper end, how it changes the balance of the chain that hangs there."""
         at, none = self.hanging, np.zeros((self.hanging.size, 1))
         found = changes_of(at)
         if self.weightless:
@@ -144,14 +146,14 @@ def held_shape_sensitivity(shape: SteadyShape) -> Sensitivity:
         found["inclination"][name] = each[:n]
         found["offset"][name] = pins @ swung + top + change.pins
         found["tension"][name] = chain.per * (pull[:, None] * (moves / at.height + across) + hung[:, None] * hangs) / size
-    _hold(shape, found)
+    _at_given_end(shape, found)
     for by in found.values():
         named(by, shape.system.system, ("angular_speed", "span", "tension", *OF_ENDS))
     return of_shape(n, [found[part] for part in PARTS])
 
 
-def _hold(shape: SteadyShape, found: dict[str, dict[str, Floats]]) -> None:
-    """Make the derivatives those at constant tension if the tension was given; mark the other datum of the ends NaN."""
+def _at_given_end(shape: SteadyShape, found: dict[str, dict[str, Floats]]) -> None:
+    """Convert the derivatives to constant tension if the tension was given; those by the datum not given become NaN."""
     if shape.system.tension is None:
         for by in found.values():
             by["tension"] = np.full_like(by["span"], math.nan)

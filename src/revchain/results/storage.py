@@ -126,7 +126,7 @@ def _loaded(header: Any, arrays: Mapping[str, Any]) -> Any:
 
 
 def _packed(value: Any, name: str, arrays: dict[str, Any], made: dict[int, str]) -> Any:
-    """`value` for JSON; its arrays go into `arrays` by name, and each system once, named in `made`."""
+    """Return `value` as data for JSON. Its arrays go into `arrays` by name; each system is written once, named in `made`."""
     if isinstance(value, np.ndarray):
         if value.dtype.kind != "c":
             arrays[name] = value

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Many chains in one call of `revchain.conical_heights`, if their links follow the varied numbers in proportion."""
+"""Solves many points of a study in one call of `revchain.conical_heights`.
+
+This needs every number of every link to be a constant times a product of varied numbers.
+"""
 
 from __future__ import annotations
 
@@ -65,9 +68,10 @@ class Links:
 
 
 def links_of(scene: Scene, axes: Sequence[Axis]) -> Links | None:
-    """How the links follow the varied numbers; None unless `conical_heights` answers the question for each point.
+    """Return how each number of the links depends on the varied ones; None if `conical_heights` cannot answer the study.
 
-    The scene itself is asked: each number is varied alone by a quarter, then all of them together by unequal parts.
+    The function builds the scene at trial values: it raises each number alone by a quarter, then all of them together by
+    unequal parts, and checks the prediction.
     """
     if not _is_answered(scene) or not all(axis.is_number for axis in axes):
         return None

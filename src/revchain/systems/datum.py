@@ -40,10 +40,11 @@ class Datum:
     floor : float or None
         Lower limit of all values; None if they may have either sign.
     ceiling : float
-        End of a search for values of either sign, unless the present value lies beyond it.
+        Upper end of a search with equal steps; infinite if the search is by ratio. If the present value lies beyond it,
+        the search ends there.
     rate : (str, ndarray) or None
-        Field of the sensitivities of a `Chain` or a `Rig` that has the derivatives, and the weight of each link in the
-        sum; None if there is none.
+        Name of the field of the sensitivity, and a factor for each link: the derivative by this datum is the sum of field
+        times factor. None if no field has it.
     link : int
         Index of the link, from 0 for the lowest; 0 if the number belongs to no link.
     one_way : bool
@@ -67,7 +68,7 @@ class Datum:
 
     @property
     def has_scale(self) -> bool:
-        """Whether a search by ratio can start at the present value."""
+        """Whether the present value sets the size of a search: it is finite and above the floor, or there is no floor."""
         return self.floor is None or self.floor < self.present < math.inf
 
 
@@ -78,8 +79,8 @@ def steps(path: object) -> Path:
     return tuple(int(index) if index else name for name, index in re.findall(r"([a-z_]+)|\[(\d+)\]", path))
 
 
-def read(caller: str, system: Any, path: Any, gravity: float) -> Datum:
-    """The datum of a path; for an unknown path a ValueError that lists the known ones."""
+def datum_at(caller: str, system: Any, path: Any, gravity: float) -> Datum:
+    """Return the datum at a path of the system. An unknown path raises a ValueError that lists the known ones."""
     name, link = path, None
     if len(parts := steps(path)) == 3 and isinstance(parts[1], int):
         name, link = f"{parts[0]}[k].{parts[2]}", parts[1]
@@ -113,14 +114,14 @@ def refuse_overlap(caller: str, paths: Iterable[str]) -> None:
     before: list[str] = []
     for path in paths:
         for other in before:
-            if path == other or any(_holds(*pair) for pair in ((path, other), (other, path))):
+            if path == other or any(_contains(*pair) for pair in ((path, other), (other, path))):
                 raise ValueError(
                     f'{caller}: vary has "{other}" and "{path}", which change the same number; leave one of them out'
                 )
         before.append(path)
 
 
-def _holds(one: str, other: str) -> bool:
+def _contains(one: str, other: str) -> bool:
     """Whether a change of the datum `one` changes the datum `other`."""
     where, _, name = other.rpartition(".")
     if one in ("mass", "weight", "length"):
@@ -217,7 +218,7 @@ def _of_rig(caller: str, rig: Rig, path: str, link: int | None, gravity: float) 
 
     if where == "" or where.startswith("links"):
         own = _of_chain(caller, chain, path, link, gravity)
-        follows = fluid is not None and name in _LENGTHS and path != f"{where}.length"  # what is displaced may
+        follows = fluid is not None and name in _LENGTHS and path != f"{where}.length"  # the displaced fluid may change with it
         return replace(own, change=lambda x: made(chain=own.change(x)), rate=None if follows else own.rate)
     whole, long = chain._compiled.total_weight, chain.total_length
     if where == "support":

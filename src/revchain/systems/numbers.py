@@ -33,7 +33,7 @@ def floats(caller: str, name: str, value: ArrayLike | None) -> Floats:
     """`value` as a float64 array, numbers with units in SI; a ValueError refuses anything but real numbers."""
     if type(value) is np.ndarray and value.dtype is _FLOAT64 and value.flags.c_contiguous:
         return value  # as fast as can be: there is nothing to convert
-    if not isinstance(value, float) and units.are_there(value := units.unpacked(value)):
+    if not isinstance(value, float) and units.has_units(value := units.unpacked(value)):
         value = units.in_si(caller, name, value)
     array = array_of(value)
     if array.dtype == object and all(isinstance(x, Real) and not isinstance(x, bool) for x in array.flat):
@@ -233,7 +233,7 @@ def beside(caller: str, **arrays: NDArray[np.generic]) -> list[NDArray[Any]]:
 
 def as_length(caller: str, name: str, value: Any) -> Any:
     """`value`, a force expressed as a length of chain of that weight; a ValueError if it has a unit."""
-    if units.are_there(value):
+    if units.has_units(value):
         why = "it is the length of chain or rope that weighs as much"
         raise ValueError(f"{caller}: {name} must be a number without a unit ({why}), got {shown(value)}")
     return value

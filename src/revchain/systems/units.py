@@ -53,12 +53,15 @@ SI = {name: (_KINDS[kind][0], kind, _KINDS[kind][1]) for kind, names in _NAMES.i
 
 
 def unpacked(value: Any) -> Any:
-    """A numpy array of text or objects as lists, with the numbers that numpy turned into text; others unchanged."""
+    """Return an array of text as a list in which plain numbers are floats again, one of objects with units as a list.
+
+    Any other value is returned unchanged.
+    """
     kind = getattr(getattr(value, "dtype", None), "kind", "")
     if kind not in ("U", "T", "O") or isinstance(value, str):
         return value
     items = value.tolist()
-    return items if kind == "O" and are_there(items) else value if kind == "O" else _numbers_of(items)
+    return items if kind == "O" and has_units(items) else value if kind == "O" else _numbers_of(items)
 
 
 def _numbers_of(text: Any) -> Any:
@@ -67,12 +70,12 @@ def _numbers_of(text: Any) -> Any:
     return float(text) if re.fullmatch(_NUMBER, text) else text
 
 
-def are_there(value: Any) -> bool:
-    """Return whether a value contains a number with a unit."""
+def has_units(value: Any) -> bool:
+    """Return whether a value is or contains text or a pint quantity, so that it must be converted."""
     value = unpacked(value)
     if isinstance(value, str) or hasattr(value, "dimensionality"):
         return True
-    return isinstance(value, list | tuple) and any(map(are_there, value))
+    return isinstance(value, list | tuple) and any(map(has_units, value))
 
 
 def in_si(caller: str, name: str, value: Any) -> Any:
