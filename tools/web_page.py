@@ -77,7 +77,7 @@ def preset(name: str) -> dict[str, Any]:
     return {
         "name": name,
         "title": scene.title,
-        **STORIES[name],
+        **STORIES[name],  # may have a shorter title
         "parts": parts,
         "forms": forms,
         "gravity": gravity,

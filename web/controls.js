@@ -73,6 +73,7 @@ function buildSliders() {
     unit.onchange = () => {
         state.unit = unit.value;
         speedSlider.show();
+        showStory();
         modesShown = false;
         dirty = true;
         saveLink();

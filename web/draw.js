@@ -66,6 +66,7 @@ function putOnStage(stage, {radius, carriage, stiffness}, figure, speed, afresh)
         pins,
         links: solidsOf(figure.links, figure.forms),
         arm: radius,
+        springs: stiffness !== null,
         carriage: stiffness === null ? 0 : carriage,
         turns: Math.sign(speed) || 1,
         top,

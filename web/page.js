@@ -5,7 +5,7 @@ const $ = (id) => document.getElementById(id);
 const MOST_CARDS = 60;
 const VERDICT_WORDS = {
     minimum: 'stable',
-    'spectrally stable': 'stable if frictionless',
+    'spectrally stable': 'stable without friction',
     unstable: 'unstable',
     undecided: 'stability open',
 };
@@ -185,22 +185,22 @@ function showShapes() {
     const said = $('shapes-said');
     if (problem) write(said, 'No shapes: see the message above.');
     else if (!shapes) write(said, links.length > REQUEST.mostLinks ? 'Too many links for this page.' : 'Computing …');
-    else if (!list.length && shapes.complete) write(said, 'None: at this speed the chain hangs straight.');
+    else if (!list.length && shapes.complete) write(said, 'None: at this speed the chain hangs straight. Proved.');
     else
         write(
             said,
             `${plural(list.length, 'shape')} at ${inUnit(state.speed)}${
                 shapes.complete
-                    ? ', and it is proved that there are no others.'
+                    ? '. Proved: at this speed there are no others.'
                     : '. There may be others: the search ended at its limit, or the speed is that of a mode.'
             }${list.length > MOST_CARDS ? ` The first ${MOST_CARDS} are drawn.` : ''}`,
         );
     showCards(
         $('shape-list'),
         list.slice(0, MOST_CARDS),
-        (shape) => [
-            plural(shape.halfWaves, 'half wave'),
-            `free end ${digits(Math.abs(shape.offset[0]), 3)} m`,
+        (shape, i) => [
+            `Shape ${i + 1}${shape.halfWaves > 1 ? `: crosses the axis ${['', 'once', 'twice'][shape.halfWaves - 1] ?? `${shape.halfWaves - 1} times`}` : ''}`,
+            `end ${digits(Math.abs(shape.offset[0]), 3)} m from axis`,
             VERDICT_WORDS[shape.verdict] ?? '',
         ],
         (shape) => shape === chosen,
@@ -211,11 +211,12 @@ function showShapes() {
 function showModes() {
     if (!modes) return;
     const {forward, backward, other, growth} = modes;
-    const sides = backward ? `${forward} forward and ${backward} backward` : `${forward} in all`;
+    const all = backward ? `${forward} forward and ${backward} backward modes` : plural(forward, 'mode');
+    const sides = forward + backward ? all : 'No mode keeps turning';
     const growing =
-        growth > 0 ? ` Straight, the chain is unstable: a disturbance grows by a factor of e in ${digits(1 / growth, 3)} s.` : '';
-    const others = other ? `, and ${plural(other, 'motion')} that ${other === 1 ? 'grows or dies' : 'grow or die'} away` : '';
-    $('modes-said').textContent = `${sides}${others}.${growing}`;
+        growth > 0 ? ` Straight, the chain is unstable: a small push doubles every ${digits(Math.LN2 / growth, 2)} s.` : '';
+    const others = other ? `; ${plural(other, 'motion')} ${other === 1 ? 'grows or dies' : 'grow or die'} away instead` : '';
+    $('modes-said').textContent = `${sides}${others}. A node is a point that stays on the axis.${growing}`;
     const second = state.unit === 'rpm' ? 'rad/s' : 'rpm';
     showCards(
         $('mode-list'),
@@ -244,7 +245,7 @@ function showDiagram() {
     else
         write(
             said,
-            `${plural(diagram.branches.length, 'branch').replace('branchs', 'branches')} up to ${inUnit(top)}${wordsOf(diagram)} ● stable, ○ not. Click to set the speed.`,
+            `${diagram.branches.length === 1 ? '1 family' : `${diagram.branches.length} families`} of shapes up to ${inUnit(top)}${wordsOf(diagram)} ● stable, ○ not. Click to set the speed.`,
         );
     drawDiagram($('diagram'), {
         branches: diagram?.branches ?? [],
@@ -259,18 +260,18 @@ function showDiagram() {
 
 /** What is known about a diagram: proved, being proved, tried in vain, or not tried. */
 function wordsOf({complete, tried, tries}) {
-    if (complete) return ', and it is proved that there are no others.';
-    if (tried) return '. There may be others: a proof was tried and does not cover this chain.';
-    if (tries) return '. Proving that there are no others …';
-    return `. There may be others: this page tries a proof up to ${REQUEST.proofLinks} links, the library up to any number.`;
+    if (complete) return '. Proved: over all these speeds there are no others.';
+    if (tried) return '. Over the whole range of speeds it is not proved that there are no more: the proof does not cover this chain.';
+    if (tries) return '. Proving that there are no more …';
+    return `. There may be more: this page tries a proof up to ${REQUEST.proofLinks} links.`;
 }
 
 /** What is known of a shape's stability, as a sentence. */
 function stabilityOf({verdict, growth}) {
     if (verdict === 'unstable')
-        return `Unstable: a disturbance grows by a factor of e in ${digits(1 / (growth * Math.abs(state.speed)), 3)} s.`;
-    if (verdict === 'minimum') return 'Stable, even with friction.';
-    if (verdict === 'spectrally stable') return 'Stable, but friction at the pins may destabilize it.';
+        return `Unstable: a small push doubles every ${digits(Math.LN2 / (growth * Math.abs(state.speed)), 2)} s.`;
+    if (verdict === 'minimum') return 'Stable: after a small push it stays near this shape, with friction at the pins, too.';
+    if (verdict === 'spectrally stable') return 'Stable without friction; friction at the pins may upset it.';
     return verdict === 'undecided' ? 'Whether it is stable could not be decided.' : '';
 }
 
@@ -284,8 +285,9 @@ function captionOf(figure) {
             ? `The chain hangs straight at this speed.${wait}`
             : `${plural(figure.links.length, 'link')}, ${digits(totalLength(state), 3)} m.`;
     }
-    const place = `The free end circles ${digits(Math.abs(figure.offset[0]), 3)} m from the axis`;
-    return `${place}; the support carries ${digits(figure.tension * state.gravity, 3)} N. ${stabilityOf(figure)}`;
+    const circle = `The free end moves on a circle of radius ${digits(Math.abs(figure.offset[0]), 3)} m`;
+    const pull = `the pull on the support is ${digits(figure.tension * state.gravity, 3)} N`;
+    return `${circle}; ${pull}. ${stabilityOf(figure)}`;
 }
 
 /** How exact the numbers are, in plain words. */
@@ -307,9 +309,10 @@ function showStory() {
     const preset = presets.find((each) => each.name === state.name);
     $('story').hidden = !preset;
     if (!preset) return;
-    write($('says'), preset.says);
+    const worded = (text) => text.replace(/\{([\d.]+)\}/g, (_, speed) => inUnit(Number(speed), 3));
+    write($('says'), worded(preset.says));
     const tries = preset.tries.map((one) => {
-        const button = element('button', {type: 'button', textContent: one.text});
+        const button = element('button', {type: 'button', textContent: worded(one.text)});
         button.onclick = () =>
             open({...presetState(preset.name), unit: state.unit, speed: one.speed ?? null, select: one.select ?? null});
         return button;

@@ -97,8 +97,10 @@ class _Solid:
         def make() -> int:
             # glTF has linear light, colours of the web do not
             light = [(int(colour[k : k + 2], 16) / 255) ** 2.2 for k in (0, 2, 4)]
-            surface = {"baseColorFactor": [*light, 1.0], "metallicFactor": 0.1, "roughnessFactor": 0.6}
-            return self._put("materials", name=f"#{colour}", pbrMetallicRoughness=surface)
+            clear = f"#{colour}" == forms()["colours"]["metal"]  # bells, whose clappers are seen
+            surface = {"baseColorFactor": [*light, 0.5 if clear else 1.0], "metallicFactor": 0.1, "roughnessFactor": 0.6}
+            blend = {"alphaMode": "BLEND"} if clear else {}
+            return self._put("materials", name=f"#{colour}", pbrMetallicRoughness=surface, **blend)
 
         return self._once(colour, make)
 
@@ -158,7 +160,7 @@ class _Solid:
                 self._ring(name, turning, points[:, k + 1], points[:, k], colour, k % 2)
                 continue
             radius = (THICK if film.stout[k] else THIN) * self.tall
-            self._bar(name, turning, points[:, k + 1], points[:, k], radius, colour)
+            self._bar(name, turning, points[:, k + 1], self._end_of_bar(points, k), radius, colour)
         self._bodies(turning, points, colour)
         for end in (0, -1) if film.is_held else (-1,):
             self._ball("support", turning, points[:, end], 0.6 * BALL * self.tall, GREYS["support"])
@@ -200,6 +202,15 @@ class _Solid:
     def _ball(self, name: str, parent: int, at: Floats, radius: float, colour: str) -> None:
         node = self._node(name, parent, mesh=self._mesh("ball", colour))
         self._placed(node, at, None, np.full((1, 3), radius))
+
+    def _end_of_bar(self, points: Floats, link: int) -> Floats:
+        """Return the lower pin of a link; for what hangs from a bar above its centre of gravity, the end of that bar."""
+        bodies, lower, upper = self.film.bodies, points[:, link], points[:, link + 1]
+        for k in np.flatnonzero(bodies.link == link).tolist():
+            if bodies.form[k] and (above := forms()["bodies"][bodies.form[k]].get("hangs")):
+                long = np.linalg.norm(lower - upper, axis=1)[:, None]
+                return np.asarray(upper + (bodies.along[k] - above * self.tall / long) * (lower - upper))
+        return lower
 
     def _ring(self, name: str, parent: int, upper: Floats, lower: Floats, colour: str, odd: int) -> None:
         along = upper - lower

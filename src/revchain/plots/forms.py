@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 FORM_OF_WORD = {  # in the name of a link
-    "bell": "bell", "jar": "jar", "man": "person", "acrobat": "person", "chair": "seat", "seat": "seat", "load": "crate",
+    "bell": "bell", "clapper": "clapper", "jar": "jar", "man": "person", "acrobat": "person", "chair": "seat", "seat": "seat", "load": "crate",
     "hook": "hook", "wheel": "wheel", "gyrostat": "disc",
 }  # fmt: skip
 LEAST_RIM = 0.04  # radius of a wheel on a point mass, over the height of the whole

@@ -36,7 +36,8 @@ const materials = new Map();
 
 function materialOf(colour) {
   if (!materials.has(colour)) {
-    materials.set(colour, new MeshStandardMaterial({ name: colour, color: colour, metalness: 0.1, roughness: 0.6 }));
+    const clear = colour === table.colours.metal && { transparent: true, opacity: 0.5, depthWrite: false };  // bells
+    materials.set(colour, new MeshStandardMaterial({ name: colour, color: colour, metalness: 0.1, roughness: 0.6, ...clear }));
   }
   return materials.get(colour);
 }
@@ -73,8 +74,10 @@ function addLink(parent, link, to, from, { tall, ball, colour, others, odd }) {
     piece("ring", colour, [0, length / 2, 0], [wide, 1.15 * length, wide], [0, odd ? Math.PI / 2 : 0, 0]);
     return;
   }
-  bar(parent, to, from, (link.stands ? THICK : THIN) * tall, paint(colour));
   const along = link.along * length, body = table.bodies[link.form];
+  const end = body?.hangs ? at(0, along - body.hangs * tall, 0) : to;
+  bar(parent, end, from, (link.stands ? THICK : link.size ? THIN : THIN / 2) * tall, paint(link.size ? colour : GREY.axis));
+  if (link.form === "bell") piece("bar", GREY.support, [0, 0, 0], [0.09 * link.gyration, 2.4 * link.gyration, 0.09 * link.gyration], [Math.PI / 2, 0, 0]);
   if (body) {
     const { gyration } = link, rim = Math.max(Math.SQRT2 * gyration, 0.04 * tall);
     const unit = { tall, length, rim, gyration }[body.unit];
@@ -91,7 +94,7 @@ function addLink(parent, link, to, from, { tall, ball, colour, others, odd }) {
     const half = link.rod * length;
     bar(parent, at(0, along - half, 0), at(0, along + half, 0), 1.8 * THIN * tall, paint(colour));
   }
-  if (!link.plain) piece("ball", GREY.body, [0, along, 0], Array(3).fill(ball * Math.max(link.size, 0.3)));
+  if (!link.plain) piece("ball", GREY.body, [0, along, 0], Array(3).fill(ball * Math.max(link.size, 0.12)));
 }
 
 /** An arc of radius 1 that fades away. */
@@ -117,14 +120,15 @@ function trailOf(radius, height, turns, colour) {
 
 /** {root, turning, trail} of a chain. Pins are [offset, height], lowest first; `links`, one fewer, are described by
  * {form, size 0 to 1, along and rod as parts of the length, gyration in m, ahead, stands, plain}. */
-export function chainFigure({ pins, links, arm, carriage, top, floor, colour, turns }) {
+export function chainFigure({ pins, links, arm, springs, carriage, top, floor, colour, turns }) {
   const root = new Group(), turning = new Group(), points = pins.map(([x, y]) => new Vector3(x, y, 0));
   const tall = Math.max(top - floor, ...pins.map(([x]) => 2 * Math.abs(x))), support = points.at(-1);
   const heavy = links.reduce((sum, { size }) => sum + size ** 3, 0);  // the heaviest as one, the others as parts of it
   const ball = tall * Math.min(BALL, Math.max(0.28 / heavy, 1.5 * THIN));
   const end = new Vector3(arm, 0, 0), axis = new Vector3(0, 0, 0);
-  const ride = arm > 0 && links.some(({ form }) => form === "seat"), mast = ride ? 2.5 * THIN : THIN / 3;
-  bar(root, new Vector3(0, floor, 0), new Vector3(0, top, 0), mast * tall, ride ? GREY.support : GREY.axis);
+  const hall = arm > 0 && links.some(({ form }) => form === "seat"), mast = hall ? 2.5 * THIN : THIN / 3;
+  const apart = support.distanceTo(end) > 1e-9 * tall, ride = hall && !springs;
+  bar(root, new Vector3(0, floor, 0), new Vector3(0, top, 0), mast * tall, hall ? GREY.support : GREY.axis);
   for (let place = 0; place < (ride ? SEATS : 1); place++) {
     const group = new Group(), others = place > 0;
     group.rotation.y = 2 * Math.PI * place / SEATS;
@@ -133,8 +137,14 @@ export function chainFigure({ pins, links, arm, carriage, top, floor, colour, tu
     });
     if (carriage && !others) put(group, "box", GREY.body, support, [0.09 * tall, 0.025 * tall, 0.06 * tall]);
     put(group, "ball", GREY.support, support, Array(3).fill(0.5 * BALL * tall));
+    if (links.length <= 12 && links.every(({ form }) => form !== "ring")) {
+      for (const joint of points.slice(1, -1)) put(group, "ball", GREY.support, joint, Array(3).fill(1.6 * THIN * tall));
+    }
     if (arm) bar(group, axis, end, 1.3 * THIN * tall, GREY.support);
-    if (support.distanceTo(end) > 1e-9 * tall) bar(group, end, support, THIN / 2 * tall, GREY.axis);  // the spring
+    for (let k = 0; springs && k < 12; k++) {  // zigzag
+      const node = (j) => end.clone().lerp(support, j / 12).setY(j % 12 ? (j % 2 - 0.5) * 0.04 * tall : 0);
+      if (apart) bar(group, node(k), node(k + 1), THIN / 2 * tall, GREY.body);
+    }
     turning.add(group);
   }
   const trail = new Group(), [x, y] = pins[0];
