@@ -384,5 +384,5 @@ def test_picture():
     ax = rc.modes(rig).plot(modes=[1, 2])
     labels = [label.get_text() for label in ax.get_xticklabels()]
     assert len(labels) == 5 and labels[0] == "at rest"
-    assert labels[1].startswith("mode 1\nbackward\n-0.") and labels[2].startswith("mode 1\nforward\n")
+    assert labels[1].startswith("mode 1\nbackward\n-2.657 rpm") and labels[2].startswith("mode 1\nforward\n")
     ax.figure.savefig("/dev/null", format="png")

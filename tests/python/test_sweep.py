@@ -123,6 +123,21 @@ def test_batches_are_the_bare_call():
         assert chain.weight.tobytes() == weight[point].tobytes() and chain.length.tobytes() == length[point].tobytes()
 
 
+def test_batches_and_points_one_by_one_agree_to_their_accuracy():
+    vary = {"links[0].mass": {"log_uniform": [1e-3, 1e3]}, "links[1].length": {"uniform": [0.1, 0.9]}}
+    batches = rc.sweep(study(BODIES, vary, samples=500))
+    given = study(BODIES, vary, samples=500, error_bounds=True)
+    single = rc.sweep(given)
+    assert "error_bound" in single and "error_bound" not in batches
+    assert single["error_bound"].max() < 1e-15
+    assert np.abs(batches["conical_height"] / single["conical_height"] - 1).max() < 1.5e-15
+    for point in (0, 250, 499):
+        modes = given.scene_at(point).modes()
+        assert rows(single, "conical_height")[point].tobytes() == modes.conical_height.tobytes()
+        assert rows(single, "error_bound")[point].tobytes() == modes.error_bound.tobytes()
+    same(batches, rc.sweep(study(BODIES, vary, samples=500)))
+
+
 def test_batches_of_point_masses_are_the_bare_call():
     """Numbers that a varied number replaces are not rounded: heights are those of the direct call to the last bit."""
     vary = {"links[0].mass": {"uniform": [1, 2]}, "links[1].length": {"values": [0.1, 0.7]}}
