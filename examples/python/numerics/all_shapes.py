@@ -54,7 +54,7 @@ print(f"eight point masses at 5.95 sqrt(g/a): {len(eight)} shapes, {'all' if eig
 figure = plt.figure(figsize=(8, 4.5), layout="constrained")
 axes = figure.subplot_mosaic([["A", "B", "C", "all"], ["D", "E", ".", "all"]], width_ratios=[1.25, 1, 1, 3.4])
 curves = axes["all"]
-closer = curves.inset_axes((0.47, 0.44, 0.51, 0.37), xlim=(3.85, 4.6), ylim=(80.3, 85.9), xticks=[4.0, 4.4])
+closer = curves.inset_axes((0.42, 0.4, 0.56, 0.42), xlim=(3.85, 4.75), ylim=(80.3, 85.9), xticks=[4.0, 4.4])
 for panel in (curves, closer):
     for branch in diagram:
         panel.plot(branch.angular_speed, np.degrees(branch.lowest_inclination), color=f"C{branch.half_waves[-1] - 1}")
@@ -71,7 +71,8 @@ for letter, shape in zip("ABCDE", shapes, strict=True):
     curves.plot(SPEED, tip, "o", color=colour)
     closer.plot(SPEED, tip, "o", color=colour)
     panel = closer if 80.3 < tip < 85.9 else curves
-    panel.annotate(letter, (SPEED, tip), xytext=(5, 4 if letter == "A" else -12), textcoords="offset points")
+    beside = {"B": (-13, 3), "D": (7, -9), "E": (8, -6)}.get(letter, (5, 4))
+    panel.annotate(letter, (SPEED, tip), xytext=beside, textcoords="offset points", color=colour, weight="bold")
 curves.set(title="branches, and the five shapes at 4.4 $\\sqrt{g/a}$", xlabel="speed over $\\sqrt{g/a}$")
 curves.set_ylabel("inclination of the lowest thread (°)")
 plt.show()
