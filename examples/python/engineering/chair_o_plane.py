@@ -61,7 +61,9 @@ for k, mass in enumerate((0, 40, 80, 120, 130)):
         style, label = ("-", f"rider of {mass} kg") if branch.birth == "rest" else ("--", None)
         axes.plot(rpm(branch.angular_speed), branch.tip_radius, style, color=f"C{k}", label=label)
 axes.set(xlabel="speed (rpm)", ylabel="offset of the chair from the axis (m)", ylim=(-20, 40))
-axes.set_title("dashed: isolated branch, the chair on the other side of the axis")
+axes.plot([], [], "--", color="0.3", label="isolated branch:\nbeyond the axis")
+axes.axhline(0, color="0.6", linestyle="-.", linewidth=0.8)
+axes.set_title("How far a heavy rider takes the chair out")
 axes.legend()
 plt.show()
 
