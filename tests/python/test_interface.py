@@ -3,12 +3,14 @@
 
 import copy
 import importlib
+import inspect
 import json
 import math
 import pickle
 import pkgutil
 import pydoc
 import time
+from typing import Any
 
 import numpy as np
 import pytest
@@ -419,3 +421,20 @@ def test_all_modes_below_two_ulp():
     every = rc.modes(POINTS, "all", rtol=1e-20)
     assert every.method == rc.modes(POINTS, 2, method="double-double").method and every.status == "success"
     assert rc.explain(POINTS, "all").meets_tolerance
+
+
+def public_functions():
+    for name in dir(rc):
+        thing = getattr(rc, name)
+        if inspect.isfunction(thing):
+            yield name, thing
+        for method, member in vars(thing).items() if inspect.isclass(thing) or inspect.ismodule(thing) else ():
+            member = getattr(member, "__func__", member)
+            if not method.startswith("_") and inspect.isfunction(member):
+                yield f"{name}.{method}", member
+
+
+def test_public_functions_say_what_they_return():
+    returned = {name: inspect.signature(function).return_annotation for name, function in public_functions()}
+    assert len(returned) > 100
+    assert [name for name, kind in returned.items() if kind in ("Any", Any, inspect.Signature.empty)] == []

@@ -14,7 +14,7 @@ from ..results.modes import Modes
 from ..systems.chain import Chain, compiled
 from ..systems.cord import Cord
 from ..systems.held import Held
-from ..systems.numbers import STANDARD_GRAVITY, Floats, boolean, floats, integer, one_positive, positive, real, shown, together
+from ..systems.numbers import STANDARD_GRAVITY, Floats, Whole, boolean, floats, integer, one_positive, positive, real, shown, together
 from ..systems.numbers import count as checked_count
 from ..systems.numbers import word as checked_word
 from ..systems.rig import Rig
@@ -361,7 +361,7 @@ def count_modes(
     conical_height: ArrayLike | None = None,
     angular_speed: ArrayLike | None = None,
     gravity: ArrayLike = STANDARD_GRAVITY,
-) -> Any:
+) -> np.int64 | Whole:
     """Return the number of modes slower than a speed, that is, with a conical height above a height.
 
     Parameters

@@ -17,6 +17,7 @@ from .kinds import KINDS, restored
 from .sheet import Column, Sheet, as_dataframe, as_dataset, as_dict, as_html, as_rows, as_text
 
 if TYPE_CHECKING:
+    from pandas import DataFrame
     from xarray import Dataset
 
 Item = TypeVar("Item")
@@ -237,7 +238,7 @@ class Result(Unchangeable):
         """
         return as_dict(self._sheet())
 
-    def to_dataframe(self) -> Any:
+    def to_dataframe(self) -> DataFrame:
         """Return a pandas table with one row for each row of the result.
 
         Returns

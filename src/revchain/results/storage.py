@@ -8,7 +8,7 @@ import os
 from collections.abc import Mapping
 from importlib import import_module
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, TYPE_CHECKING, Any
 from zipfile import ZIP_STORED, BadZipFile, ZipFile
 
 import numpy as np
@@ -19,6 +19,9 @@ from ..systems.system import System
 from ..systems.system import restored as system_from
 from .files import hdf5_file, naming, written_aside
 from .kinds import KINDS, restored
+
+if TYPE_CHECKING:
+    from .base import Result
 
 FORMAT = "revchain 2"
 HEADER = "revchain"  # name of the entry that describes the contents of a file
@@ -47,7 +50,7 @@ def save(result: Any, path: str | os.PathLike[str]) -> None:
                 np.savez(file, allow_pickle=False, **{HEADER: np.asarray(header)}, **arrays)
 
 
-def load(path: str | os.PathLike[str]) -> Any:
+def load(path: str | os.PathLike[str]) -> Result:
     """Return a result from a file written by its method `save`.
 
     Parameters
@@ -114,14 +117,14 @@ def _arrays(file: IO[bytes], size: int) -> dict[str, np.ndarray[Any, Any]]:
     return arrays
 
 
-def _loaded(header: Any, arrays: Mapping[str, Any]) -> Any:
+def _loaded(header: Any, arrays: Mapping[str, Any]) -> Result:
     if header is None:
         raise ValueError(NOT_OURS)
     said = json.loads(str(header))
     if said.get("format") != FORMAT:
         other = said.get("format", "an earlier one")
         raise ValueError(f"is a file of another version, {other}; compute and save the result again")
-    found: Any = _unpacked(said["result"], arrays, {})
+    found: Result = _unpacked(said["result"], arrays, {})
     return found
 
 

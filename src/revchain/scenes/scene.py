@@ -5,7 +5,7 @@ import os
 import re
 import weakref
 from collections.abc import Callable
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 import numpy as np
 from msgspec import UNSET, UnsetType, json, to_builtins
@@ -18,7 +18,15 @@ from .error import Problem, SceneError
 from .system import Numbers, System, problem_of, system_of
 from .tables import BESIDE, QUESTIONS, SYSTEMS, TABLES, AskExplain, AskModes, Table, Tables
 
+if TYPE_CHECKING:
+    from ..results.branches import Branches
+    from ..results.modes import Modes
+    from ..results.motions import Response, Swing
+    from ..results.shapes import SteadyShapes
+
 __all__ = ["Scene", "load_scene"]
+
+Answer = TypeVar("Answer")
 
 EXCLUSIVE = (*SPEEDS["shapes"], *SPEEDS["branches"], "count", "first")
 # By the id of each living scene. A struct with `dict=True` could hold this, but msgspec before 0.21 crashes with it on
@@ -26,11 +34,13 @@ EXCLUSIVE = (*SPEEDS["shapes"], *SPEEDS["branches"], "count", "first")
 _MADE: dict[int, tuple["weakref.ref[Scene]", dict[str, Any]]] = {}
 
 
-def _asking(question: str, what: str, result: str, example: str) -> Callable[..., Any]:
-    """The method of `Scene` that answers one question."""
+def _asking(
+    question: str, what: str, result: str, example: str, kind: Callable[[], type[Answer]]
+) -> Callable[..., Answer]:
+    """The method of `Scene` that answers one question; `kind` is never called and tells type checkers what it returns."""
 
-    def ask(self: Any, **changed: Any) -> Any:
-        return self._answer(question, changed)
+    def ask(self: Any, **changed: Any) -> Answer:
+        return self._answer(question, changed)  # type: ignore[no-any-return]
 
     indented = example.replace("\n", "\n        ")
     ask.__doc__ = f"""Return the {what} for the table ``[ask.{question}]``, with the gravity of the scene.
@@ -194,17 +204,24 @@ class Scene(Tables, frozen=True, weakref=True):
         """Names of the questions for which the scene has a table, out of modes, shapes, response, swing, branches."""
         return tuple([name for name in QUESTIONS if getattr(self.ask, name) is not UNSET])
 
-    modes = _asking("modes", "modes", "Modes", ">>> scene.modes(first=2).conical_height.round(6)\narray([0.25])")
+    modes = _asking(
+        "modes", "modes", "Modes", ">>> scene.modes(first=2).conical_height.round(6)\narray([0.25])", lambda: Modes
+    )
     steady_shapes = _asking(
-        "shapes", "steady shapes", "SteadyShapes", '>>> len(scene.steady_shapes(angular_speed="60 rpm"))\n2'
+        "shapes", "steady shapes", "SteadyShapes", '>>> len(scene.steady_shapes(angular_speed="60 rpm"))\n2',
+        lambda: SteadyShapes,
     )
     response = _asking(
-        "response", "forced motion", "Response", ">>> scene.response(angular_speed=2.0).modes_below\narray(0)"
+        "response", "forced motion", "Response", ">>> scene.response(angular_speed=2.0).modes_below\narray(0)",
+        lambda: Response,
     )
     swing = _asking(
-        "swing", "swing after release", "Swing", '>>> scene.swing(offset=["5 cm", 0], time=[0, 1]).offset.shape\n(2, 3)'
+        "swing", "swing after release", "Swing", '>>> scene.swing(offset=["5 cm", 0], time=[0, 1]).offset.shape\n(2, 3)',
+        lambda: Swing,
     )
-    branches = _asking("branches", "branches", "Branches", ">>> len(scene.branches(max_angular_speed=5.0))\n1")
+    branches = _asking(
+        "branches", "branches", "Branches", ">>> len(scene.branches(max_angular_speed=5.0))\n1", lambda: Branches
+    )
 
     def answers(self) -> dict[str, Any]:
         """Return the answers to all questions of the scene.

@@ -149,7 +149,7 @@ class Plan:
 
 def answers(scene: Scene, find: Sequence[str]) -> tuple[dict[str, Any], bool]:
     """The answers to these questions of a scene, and whether all are complete and within their tolerance."""
-    found = {question: _ANSWERS[question](scene) for question in find}
+    found: dict[str, Any] = {question: _ANSWERS[question](scene) for question in find}
     proved = [
         "modes" not in found or found["modes"].status == "success",
         "shapes" not in found or found["shapes"].complete,
