@@ -430,7 +430,8 @@ def public_functions():
             yield name, thing
         for method, member in vars(thing).items() if inspect.isclass(thing) or inspect.ismodule(thing) else ():
             member = getattr(member, "__func__", member)
-            if not method.startswith("_") and inspect.isfunction(member):
+            ours = inspect.isfunction(member) and member.__module__.startswith("revchain")
+            if ours and not method.startswith("_"):
                 yield f"{name}.{method}", member
 
 
