@@ -23,7 +23,7 @@ using namespace pybind11::literals;
 /// Numbers in any order and of any type, as contiguous doubles.
 using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-/// What a question reports to, or None.
+/// The progress that a question reports to; None for no reports.
 using MaybeProgress = std::optional<revchain::Progress*>;
 
 /// Python's direction of rotation: 1 or -1.

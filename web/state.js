@@ -121,7 +121,7 @@ function fromLink(text) {
 
 // The same chain as a program and as a scene file -----------------------------------------------------------------------
 
-/** The columns of the parts as they are written, lowest first: [[name, value of a part]]; `heavy` parts alone have more. */
+/** The columns that a program or a scene gives, as [name, index in a part], and whether links stand or wheels spin. */
 function columnsOf(state) {
     const has = (index) => state.parts.some((part) => part[index] !== 0);
     const plain = state.parts.every((part) => kindOf(part) === 'point');

@@ -51,7 +51,7 @@ def test_what_is_asked_comes_back(make, links, mode):
 
 
 def test_the_diagram_holds_every_shape_there_is():
-    """Of other chains: tests/cpp/branches.cpp."""
+    """Other chains are checked in tests/cpp/branches.cpp."""
     diagram = rc.branches(plummets(4), min_conical_height=0.015)
     assert diagram.consistent and diagram.complete
     for height in (0.5, 0.1, 0.03, 0.0201):

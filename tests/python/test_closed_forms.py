@@ -587,7 +587,7 @@ APART = (two_links.two_plummets_from_the_middle, two_links.pin_of_silent_clapper
 
 @pytest.mark.parametrize(("function", "arguments"), [each for each in EACH if each[0] not in APART], ids=by_name)
 def test_whole_numbers_are_numbers(function, arguments):
-    """Of functions that take equal numbers for all arguments."""
+    """The functions that accept equal numbers for all arguments."""
     whole = {name: 3 for name in arguments}
     for one, other in zip(columns(function(**whole)), columns(function(**{k: 3.0 for k in whole})), strict=True):
         assert np.array_equal(one, other, equal_nan=True)

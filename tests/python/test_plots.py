@@ -4,6 +4,7 @@
 import numpy as np
 import pytest
 from matplotlib.axes import Axes
+from matplotlib.patches import Ellipse, Polygon
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
@@ -256,3 +257,16 @@ def test_other_units_are_refused(thing, wrong):
     with pytest.raises(ValueError, match=rf"revchain.{type(thing).__name__}.plot: speed must be one of rad/s, rpm, Hz, s, got"):
         thing.plot(speed=wrong)
     assert "speed : str, optional\n    Unit of the speeds" in type(thing).plot.__doc__
+
+
+def test_bodies_are_drawn_in_the_forms_of_their_names():
+    """A bell in true height, about its centre of gravity, with its axle at the pin; a person up from his feet."""
+    links = {"length": [0.65, 0.15], "centroid": [0.52, 0.05], "radius_of_gyration": [0.2, 0.36]}
+    axes = rc.Chain(mass=[18.0, 500.0], names=["clapper", "church bell"], **links).plot()
+    (bell,) = (patch.get_xy() for patch in axes.patches if isinstance(patch, Polygon))
+    assert bell[:, 1].max() == pytest.approx(0.05 + 0.92 * 0.36) and bell[:, 1].min() == pytest.approx(0.05 + (0.92 - 2.2) * 0.36)
+    assert bell[:, 0].min() == pytest.approx(-bell[:, 0].max())
+    man = rc.Rig(rc.Chain(mass=[75.0], length=1.75, centroid=1.0, radius_of_gyration=0.48, names=["man"]), inverted=True).plot()
+    levels = [patch.get_center()[1] for patch in man.patches if isinstance(patch, Ellipse)]
+    assert levels == pytest.approx([0.64 * 1.75, 0.9 * 1.75])
+    assert len(rc.Chain(mass=[1.0, 2.0], length=1.0).plot().patches) == 0

@@ -16,7 +16,8 @@ struct RigShapeFinder {
     Index idle = 0;  ///< the number of lowest pins that the pencil omits
     pencil::SignedPencil<RigWord> sense;
     std::vector<RigWord> roots;
-    /// The same pencil by elements, which finds eight shapes at a time. Null: one at a time.
+    /// The same pencil by elements, with which eight shapes are found at a time; null to find one at a
+    /// time.
     std::shared_ptr<const pencil::ElementPencil<RigWord, Spins>> elements{};
 
     /// Returns shapes of `count` modes from index `from` on; see `found_shapes`.

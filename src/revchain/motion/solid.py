@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..plots.forms import colour_of, forms, unit_of
+from ..plots.forms import SIZES, colour_of, forms, opacity_of, pieces_of, unit_of
 from ..plots.style import PALETTE
 from ..systems.numbers import Floats, Whole
 from .film import Complex, Figure, Film, pace, side_by_side
@@ -20,8 +20,7 @@ from .film import Complex, Figure, Film, pace, side_by_side
 MOST_LINKS = 400  # of a longer chain only some of the pins are drawn
 FEWEST_KEYS, MOST_PLACES = 120, 60_000  # of links in time, about 30 bytes each
 SIDES, ROWS = 20, 8  # of a cylinder and a ball
-THIN, THICK, BALL = 0.006, 0.014, 0.035  # radii, over the height or the width of the whole
-BALL_OF_LINK = 0.28  # largest radius, over the mean link
+THIN, THICK, BALL = SIZES["thin"], SIZES["thick"], SIZES["ball"]  # radii, over the height or the width of the whole
 GREYS = {
     "body": "595959",
     "floating": "f0f0f0",
@@ -97,9 +96,9 @@ class _Solid:
         def make() -> int:
             # glTF has linear light, colours of the web do not
             light = [(int(colour[k : k + 2], 16) / 255) ** 2.2 for k in (0, 2, 4)]
-            clear = f"#{colour}" == forms()["colours"]["metal"]  # bells, whose clappers are seen
-            surface = {"baseColorFactor": [*light, 0.5 if clear else 1.0], "metallicFactor": 0.1, "roughnessFactor": 0.6}
-            blend = {"alphaMode": "BLEND"} if clear else {}
+            opacity = opacity_of(f"#{colour}")
+            surface = {"baseColorFactor": [*light, opacity], "metallicFactor": 0.1, "roughnessFactor": 0.6}
+            blend = {"alphaMode": "BLEND"} if opacity < 1 else {}
             return self._put("materials", name=f"#{colour}", pbrMetallicRoughness=surface, **blend)
 
         return self._once(colour, make)
@@ -215,17 +214,18 @@ class _Solid:
     def _ring(self, name: str, parent: int, upper: Floats, lower: Floats, colour: str, odd: int) -> None:
         along = upper - lower
         long = np.maximum(np.linalg.norm(along, axis=1), 1e-9 * self.tall)
-        wide = np.maximum(0.55 * long, 2.4 * THIN * self.tall)
+        part, least, taller = SIZES["ring"]
+        wide = np.maximum(part * long, least * THIN * self.tall)
         turn = _turned_to(along / long[:, None])
         if odd:
             turn = _after(turn, _by_angles(0.0, np.pi / 2, 0.0))
         node = self._node(name, parent, mesh=self._mesh("ring", colour))
-        self._placed(node, (upper + lower) / 2, turn, np.column_stack([wide, 1.15 * long, wide]))
+        self._placed(node, (upper + lower) / 2, turn, np.column_stack([wide, taller * long, wide]))
 
     def _bodies(self, parent: int, points: Floats, colour: str) -> None:
         bodies, film = self.film.bodies, self.film
         heavy = float(np.sum(bodies.size**3))  # the heaviest as one, the others as parts of it
-        ball = self.tall * min(BALL, max(BALL_OF_LINK / max(heavy, 1.0), 1.5 * THIN))
+        ball = self.tall * min(BALL, max(SIZES["balls"] / max(heavy, 1.0), 1.5 * THIN))
         for k, (link, along, size, rod, wheel, floats) in enumerate(
             zip(bodies.link, bodies.along, bodies.size, bodies.rod, bodies.wheel, bodies.floats, strict=True)
         ):
@@ -250,8 +250,7 @@ class _Solid:
         """Add the pieces of a form of the table, in axes of the link whose y points from its upper pin along it."""
         body, long = forms()["bodies"][form], np.maximum(np.linalg.norm(step, axis=1), 1e-9 * self.tall)
         unit, turn = unit_of(body, self.tall, float(long[0]), gyration), _turned_to(step / long[:, None])
-        start = 0.0 if body["unit"] == "length" else along * long  # from the pin, or from the centre of gravity
-        for kind, shade, (x, y, z), scale, *tilt in body["pieces"]:
+        for start, (kind, shade, (x, y, z), scale, *tilt) in pieces_of(body, along * long):
             mesh = self._mesh("cylinder" if kind == "bar" else kind, colour_of(shade, back)[1:])
             node = self._node(f"{form} of {of}", parent, mesh=mesh)
             inside = np.column_stack([np.full_like(long, x * unit), start + y * unit, np.full_like(long, z * unit)])

@@ -21,6 +21,7 @@ from ..results.modes import Modes
 from ..results.motions import Response, Swing
 from ..results.shapes import SteadyShape, SteadyShapes
 from ..results.sheet import digits
+from ..systems.chain import are_rods
 from ..systems.numbers import Floats, listed, one_positive, place_of
 from .film import Bodies, Chart, Complex, Figure, Film
 
@@ -36,7 +37,7 @@ Turning = tuple[str, Any, Floats, float, float]  # label, offsets, heights, spee
 
 @dataclass(frozen=True)
 class Choices:
-    """What the caller chooses for a film: figures, time scale, length and frame rate."""
+    """The choices of the caller for a film: figures, time scale, length and frame rate."""
 
     caller: str
     frames_per_second: float = 25.0
@@ -362,8 +363,8 @@ def _bodies(system: Any, base: Any) -> Bodies:
 
 
 def _rings(system: Any, base: Any) -> Any:
-    """Whether each link is one of many equal rods in a row, which are drawn as the rings of a chain."""
+    """Return, for each link, whether it is one of many uniform rods, which are drawn as the rings of a chain."""
     if system._is_cord:
         return False
-    rod = (base.centroid == base.length / 2) & np.isclose(base.radius_of_gyration, base.length / math.sqrt(12), rtol=1e-9)
+    rod = are_rods(base.length, base.centroid, base.radius_of_gyration)
     return rod & (np.count_nonzero(rod) >= FEWEST_RINGS) & ~system._stands & ~(system._momentum(1.0) != 0)

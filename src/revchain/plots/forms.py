@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from functools import cache
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
@@ -17,7 +18,6 @@ FORM_OF_WORD = {  # in the name of a link
     "bell": "bell", "clapper": "clapper", "jar": "jar", "man": "person", "acrobat": "person", "chair": "seat", "seat": "seat", "load": "crate",
     "hook": "hook", "wheel": "wheel", "gyrostat": "disc",
 }  # fmt: skip
-LEAST_RIM = 0.04  # radius of a wheel on a point mass, over the height of the whole
 
 
 @cache
@@ -27,6 +27,9 @@ def forms() -> dict[str, Any]:
     return found
 
 
+SIZES: dict[str, Any] = forms()["sizes"]  # over the height or the width of the whole; `rim` of a wheel on a point mass
+
+
 def form_of(name: str) -> str:
     """Return the form of a link whose name has one of the words of the table; empty for a bar with a ball."""
     return next((form for word, form in FORM_OF_WORD.items() if word in name.lower().split()), "")
@@ -34,7 +37,7 @@ def form_of(name: str) -> str:
 
 def unit_of(body: dict[str, Any], tall: float, length: float, gyration: float) -> float:
     """Return what the numbers of the pieces of a body are multiplied by, m, in a system that is so tall."""
-    rim = max(np.sqrt(2) * gyration, LEAST_RIM * tall)
+    rim = max(np.sqrt(2) * gyration, SIZES["rim"] * tall)
     return float({"tall": tall, "gyration": gyration, "length": length, "rim": rim}[body["unit"]])
 
 
@@ -42,6 +45,22 @@ def colour_of(shade: str, backward: bool) -> str:
     """Return the colour of a piece; one without a colour of its own has that of its direction of spin."""
     colours: dict[str, str] = forms()["colours"]
     return colours.get(shade, colours["back" if backward else "ahead"])
+
+
+def opacity_of(colour: str) -> float:
+    """Return the opacity of a colour of the table, below 1 for a bell, whose clapper is seen."""
+    table = forms()
+    return float({table["colours"][name]: part for name, part in table["opacity"].items()}.get(colour, 1.0))
+
+
+def pieces_of(body: dict[str, Any], along: Any) -> Iterator[tuple[Any, list[Any]]]:
+    """Yield each piece of a body with the distance from the pin at which its heights start.
+
+    The body starts at its centre of gravity, at the distance `along`, unless its unit is the length of the link.
+    """
+    start = 0.0 if body["unit"] == "length" else along
+    yield from ((start, piece) for piece in body["pieces"])
+    yield from ((0.0, piece) for piece in body.get("at_pin", ()))
 
 
 def reach_of(form: str) -> float:
@@ -59,9 +78,8 @@ def draw_form(ax: Axes, form: str, at: float, pin: float, down: float, along: fl
     from matplotlib.patches import Ellipse, Polygon, Rectangle
 
     body, profiles = forms()["bodies"][form], forms()["profiles"]
-    start = pin + down * (0.0 if body["unit"] == "length" else along)
-    for kind, shade, (_, y, z), scale, *tilt in body["pieces"]:
-        x, level, (_, high, deep) = at + wide * z * unit, start + down * y * unit, np.multiply(scale, unit)
+    for start, (kind, shade, (_, y, z), scale, *tilt) in pieces_of(body, along):
+        x, level, (_, high, deep) = at + wide * z * unit, pin + down * (start + y * unit), np.multiply(scale, unit)
         style: dict[str, Any] = {"facecolor": colour_of(shade, False), "edgecolor": "0.2", "linewidth": 0.6, "zorder": 3}
         if kind in profiles:
             profile, up = np.array(profiles[kind]), -down if tilt else down

@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 import textwrap
 from collections.abc import Iterable
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -78,7 +79,7 @@ class Straight:
         reach = np.zeros(self.level.size - 1)
         if self.system.has_momentum:
             reach[self.system._momentum(1.0) != 0] = WHEEL
-        for k, (form, unit, wide) in self._forms().items():
+        for k, (form, unit, wide) in self._forms.items():
             reach[k] = reach_of(form) * unit * wide
         return reach
 
@@ -102,6 +103,7 @@ class Straight:
         margin = 0.04 * (high - low)
         return low - margin, high + margin
 
+    @cached_property
     def _forms(self) -> dict[int, tuple[str, float, float]]:
         """Return, for each link whose name has a form, the form, its unit and how wide a metre of it is drawn."""
         base, names = self.base, getattr(self.base, "names", None)
@@ -198,12 +200,12 @@ class Straight:
         middle = self._middles()
         heavy, floats = weight > 0, floating(system)
         reach = math.sqrt(3) * chain.radius_of_gyration  # of a uniform rod of that inertia
-        named = np.isin(np.arange(chain.size), [*self._forms()])
+        named = np.isin(np.arange(chain.size), [*self._forms])
         long = heavy & (reach > 0) & ~named
         ax.vlines(across[long], (middle - reach)[long], (middle + reach)[long], color=LINK, linewidth=6.0, alpha=0.35)
         face = np.where(floats, "white", LINK)
         size = 20 + 60 * np.sqrt(weight / weight.max())
-        for k, (form, unit, wide) in self._forms().items():
+        for k, (form, unit, wide) in self._forms.items():
             down = float(np.sign(level[k] - level[k + 1]))
             draw_form(ax, form, float(across[k]), float(level[k + 1]), down, float(chain.centroid[k]), unit, wide)
         dots = heavy & ~named

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the pictures by matplotlib share: the colours and frames of the documentation, also in axes of the caller."""
+"""The parts that all pictures share: colours, frames and units. They are the same in axes of the caller."""
 
 from __future__ import annotations
 

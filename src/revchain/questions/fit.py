@@ -197,7 +197,7 @@ class _Model:
 
 
 def _least(model: _Model, start: Floats) -> tuple[Floats, bool, _Known]:
-    """Return the variables at the minimum, whether the search converged, and what the data there are known to.
+    """Return the variables at the minimum, whether the search converged, and how well each datum is known there.
 
     Combinations that the measurements do not determine stay at their start.
     """

@@ -320,7 +320,7 @@ def uncertainty_of_modes(modes: Modes, given: dict[str, Any]) -> Uncertainty:
 
 
 def _checked(caller: str, modes: Modes, given: dict[str, Any], known: tuple[str, ...]) -> dict[str, Any]:
-    """The given deviations by the names of their data. Raises ValueError for a datum that the system was not built from."""
+    """Return the given deviations by the names of their data; raise a ValueError for a datum that the system does not have."""
     system, kind = modes.system, modes.system._kind
     given, heavy = dict(given), "mass" if system.by_mass else "weight"
     if kind in ("chain", "rig") and ("mass" in given or "weight" in given):

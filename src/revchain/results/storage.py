@@ -27,6 +27,12 @@ FORMAT = "revchain 2"
 HEADER = "revchain"  # name of the entry that describes the contents of a file
 COMPRESSED = "holds arrays larger than the file, as revchain saves none; compute and save the result again"
 NOT_OURS = "is not a result that revchain saved, or was damaged since; compute and save it again"
+
+
+class NotRead(ValueError):
+    """The error for a file of which all that there is to say is known."""
+
+
 WRONG = (  # what the readers raise for a file that is damaged or that somebody else made
     *(ArithmeticError, AttributeError, BadZipFile, EOFError, LookupError, MemoryError, NotImplementedError),
     *(OSError, RuntimeError, TypeError, ValueError),
@@ -92,19 +98,20 @@ def load(path: str | os.PathLike[str]) -> Result:
                 return _loaded(arrays.get(HEADER), arrays)
             with xarray.open_dataset(file, engine="h5netcdf", decode_times=False) as dataset:
                 if dataset.nbytes > size:
-                    raise ValueError(COMPRESSED)
+                    raise NotRead(COMPRESSED)
                 whole = dataset.load()
                 return _loaded(whole.attrs.get(HEADER), {name: whole[name].values for name in whole.variables})
+        except NotRead as error:
+            raise ValueError(f"{os.fspath(path)}: {error}") from error
         except WRONG as error:
-            words = str(error) if "save" in str(error) else f"{NOT_OURS} ({error or type(error).__name__})"
-            raise ValueError(f"{os.fspath(path)}: {words}") from error
+            raise ValueError(f"{os.fspath(path)}: {NOT_OURS} ({error or type(error).__name__})") from error
 
 
 def _arrays(file: IO[bytes], size: int) -> dict[str, np.ndarray[Any, Any]]:
     """The arrays of an .npz file; none that is pickled, and none larger than the file."""
     with ZipFile(file) as entries:
         if any(entry.compress_type != ZIP_STORED or entry.file_size > size for entry in entries.infolist()):
-            raise ValueError(COMPRESSED)
+            raise NotRead(COMPRESSED)
     file.seek(0)
     arrays: dict[str, np.ndarray[Any, Any]] = {}
     with np.load(file, allow_pickle=False) as kept:
@@ -113,17 +120,17 @@ def _arrays(file: IO[bytes], size: int) -> dict[str, np.ndarray[Any, Any]]:
                 arrays[name] = kept[name]
             except ValueError as error:
                 reason = "is not loaded: it is damaged or holds pickled Python objects, which may run any code"
-                raise ValueError(f"the array {name!r} {reason} ({error}); compute and save the result again") from None
+                raise NotRead(f"the array {name!r} {reason} ({error}); compute and save the result again") from None
     return arrays
 
 
 def _loaded(header: Any, arrays: Mapping[str, Any]) -> Result:
     if header is None:
-        raise ValueError(NOT_OURS)
+        raise NotRead(NOT_OURS)
     said = json.loads(str(header))
     if said.get("format") != FORMAT:
         other = said.get("format", "an earlier one")
-        raise ValueError(f"is a file of another version, {other}; compute and save the result again")
+        raise NotRead(f"is a file of another version, {other}; compute and save the result again")
     found: Result = _unpacked(said["result"], arrays, {})
     return found
 

@@ -229,7 +229,7 @@ def _repaired(line: str) -> tuple[str, int, str] | None:
 def convert(raw: Any, kind: type[Kind], source: str, problems: list[Problem]) -> Kind:
     """`raw` as `kind`, a msgspec Struct. Errors are noted in `problems`, and the wrong values are left out.
 
-    What cannot be read at all is raised as a SceneError.
+    Text that cannot be read at all raises a SceneError.
     """
     if isinstance(raw, dict) and "vary" in _known_keys(kind) and (scene := [key for key in SYSTEMS if key in raw]):
         raise SceneError(source, scene[0], f"is of a scene, not of a study: revchain run {source}")

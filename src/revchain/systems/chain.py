@@ -464,7 +464,7 @@ class Chain(System):
             what = f"thread, {long:.6g} m"
         elif centroid == long and radius == 0:
             what = f"{heavy:.6g} {self._unit} on {long:.6g} m"
-        elif centroid == long / 2 and math.isclose(radius, long / math.sqrt(12), rel_tol=1e-12):
+        elif are_rods(long, centroid, radius):
             what = f"rod, {heavy:.6g} {self._unit}, {long:.6g} m"
         else:
             what = f"body, {heavy:.6g} {self._unit}, {long:.6g} m"
@@ -562,6 +562,12 @@ class Chain(System):
         arrays = [np.asarray(number, np.float64) for number in numbers]
         names = data.get("names")
         return cls._from_state(((data["links"], *arrays, 2, *taper), by_mass, names and tuple(names)))
+
+
+def are_rods(length: ArrayLike, centroid: ArrayLike, radius_of_gyration: ArrayLike) -> Any:
+    """Return, for each link, whether it is a uniform rod."""
+    half, spread = np.multiply(length, 0.5), np.divide(length, math.sqrt(12))
+    return np.equal(centroid, half) & np.isclose(radius_of_gyration, spread, rtol=1e-12, atol=0.0)
 
 
 def like(caller: str, chain: Chain, mass: Any, weight: Any, of: str = "") -> Any:

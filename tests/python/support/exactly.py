@@ -102,7 +102,7 @@ class System:
         return held, (mp.mpf(tension) - force * sum(_numbers(self.heavy)), False)
 
     def figure(self, n, radius, x):
-        """What is unbalanced in a steady shape of a rig, see `balance`."""
+        """Return the unbalanced moments and force in a steady shape of a rig, see `balance`."""
         held = {"radius": mp.mpf(radius)}
         if math.isfinite(self.stiffness[1]):
             held |= {"stiffness": mp.mpf(self.stiffness[1]), "carriage": mp.mpf(self.unit) * mp.mpf(self.carriage[1])}

@@ -354,7 +354,7 @@ def small_motions(rig, shape, frame="free"):
 
 
 def balance(rows, n, place, turns=False, radius=0, stiffness=0, carriage=0):
-    """What is unbalanced in a steady shape at a speed: the moment about each upper pin and, on a spring, the force on
+    """Return the unbalanced loads of a steady shape at a speed: the moment about each upper pin and, on a spring, the force on
     the support; with it the sideways pull at each upper pin and the weight below it. `place`: inclinations, lowest
     first, then the offset of a support on a spring."""
     size, rate = len(rows), n * n / mp.mpf(G)

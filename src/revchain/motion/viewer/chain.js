@@ -6,9 +6,10 @@ import {
 } from "three";
 import table from "./forms.json";
 
-const THIN = 0.006, THICK = 0.014, BALL = 0.035;  // radii, over the height or the width of the whole
+const { thin: THIN, thick: THICK, ball: BALL, balls: BALLS, rim: RIM, ring: RING } = table.sizes;  // over the whole
 const UP = new Vector3(0, 1, 0), SEATS = 8;  // places on a carousel
-const GREY = { body: "#595959", support: "#1a1a1a", axis: "#b3b3b3", others: "#aab4bd" };
+const { grey, support: dark, spoke } = table.colours, GREY = { body: grey, support: dark, axis: spoke, others: "#aab4bd" };
+const OPACITY = Object.fromEntries(Object.entries(table.opacity).map(([name, part]) => [table.colours[name], part]));
 
 const turned = (points, around = 32) => new LatheGeometry(points.map(([r, y]) => new Vector2(r, y)), around);
 
@@ -36,7 +37,7 @@ const materials = new Map();
 
 function materialOf(colour) {
   if (!materials.has(colour)) {
-    const clear = colour === table.colours.metal && { transparent: true, opacity: 0.5, depthWrite: false };  // bells
+    const clear = colour in OPACITY && { transparent: true, opacity: OPACITY[colour], depthWrite: false };
     materials.set(colour, new MeshStandardMaterial({ name: colour, color: colour, metalness: 0.1, roughness: 0.6, ...clear }));
   }
   return materials.get(colour);
@@ -70,23 +71,23 @@ function addLink(parent, link, to, from, { tall, ball, colour, others, odd }) {
     put(parent, form, paint(own), at(...place), scale, way);
   }
   if (link.form === "ring") {
-    const wide = Math.max(0.55 * length, 2.4 * THIN * tall);
-    piece("ring", colour, [0, length / 2, 0], [wide, 1.15 * length, wide], [0, odd ? Math.PI / 2 : 0, 0]);
+    const wide = Math.max(RING[0] * length, RING[1] * THIN * tall);
+    piece("ring", colour, [0, length / 2, 0], [wide, RING[2] * length, wide], [0, odd ? Math.PI / 2 : 0, 0]);
     return;
   }
   const along = link.along * length, body = table.bodies[link.form];
   const end = body?.hangs ? at(0, along - body.hangs * tall, 0) : to;
   bar(parent, end, from, (link.stands ? THICK : link.size ? THIN : THIN / 2) * tall, paint(link.size ? colour : GREY.axis));
-  if (link.form === "bell") piece("bar", GREY.support, [0, 0, 0], [0.09 * link.gyration, 2.4 * link.gyration, 0.09 * link.gyration], [Math.PI / 2, 0, 0]);
   if (body) {
-    const { gyration } = link, rim = Math.max(Math.SQRT2 * gyration, 0.04 * tall);
+    const { gyration } = link, rim = Math.max(Math.SQRT2 * gyration, RIM * tall);
     const unit = { tall, length, rim, gyration }[body.unit];
     const spin = link.ahead < 0 ? "back" : "ahead";
-    for (const [form, own, [x, y, z], scale, tilt] of body.pieces) {
+    const drawn = (pieces, start) => pieces.forEach(([form, own, [x, y, z], scale, tilt]) => {
       const shade = table.colours[own] ?? table.colours[spin];
-      const up = (body.unit === "length" ? 0 : along) + y * unit;  // or from the pin
-      piece(form, shade, [x * unit, up, z * unit], scale.map((part) => part * unit), tilt);
-    }
+      piece(form, shade, [x * unit, start + y * unit, z * unit], scale.map((part) => part * unit), tilt);
+    });
+    drawn(body.pieces, body.unit === "length" ? 0 : along);
+    drawn(body.at_pin ?? [], 0);
     return;
   }
   if (!link.size) return;
@@ -124,7 +125,7 @@ export function chainFigure({ pins, links, arm, springs, carriage, top, floor, c
   const root = new Group(), turning = new Group(), points = pins.map(([x, y]) => new Vector3(x, y, 0));
   const tall = Math.max(top - floor, ...pins.map(([x]) => 2 * Math.abs(x))), support = points.at(-1);
   const heavy = links.reduce((sum, { size }) => sum + size ** 3, 0);  // the heaviest as one, the others as parts of it
-  const ball = tall * Math.min(BALL, Math.max(0.28 / heavy, 1.5 * THIN));
+  const ball = tall * Math.min(BALL, Math.max(BALLS / heavy, 1.5 * THIN));
   const end = new Vector3(arm, 0, 0), axis = new Vector3(0, 0, 0);
   const hall = arm > 0 && links.some(({ form }) => form === "seat"), mast = hall ? 2.5 * THIN : THIN / 3;
   const apart = support.distanceTo(end) > 1e-9 * tall, ride = hall && !springs;
