@@ -125,6 +125,7 @@ function buildSliders() {
     const check = element('label', {className: 'check'}, spring, 'Support on a sideways spring');
     const summary = element('summary', {textContent: 'Gravity and support'});
     const open = state.radius > 0 || state.stiffness !== null || $('sliders').querySelector('details')?.open;
+    speedSlider.box.querySelector('[type="range"]').setAttribute('list', 'mode-speeds');
     $('speed-slider').replaceChildren(speedSlider.box);
     $('sliders').replaceChildren(element('details', {open}, summary, ...boxes(sliders), check, ...boxes(held)));
 }

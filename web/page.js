@@ -231,6 +231,15 @@ function showModes() {
     );
 }
 
+/** Marks the speeds of modes on the slider of the speed. */
+function markSpeeds() {
+    const speeds = (modes?.modes ?? []).map((mode) => mode.speed).filter((speed) => speed > 0 && speed <= top);
+    const places = speeds.map((speed) => digits((1000 * speed) / top));
+    if ($('mode-speeds').dataset.places === places.join()) return;
+    $('mode-speeds').dataset.places = places.join();
+    $('mode-speeds').replaceChildren(...places.map((value) => element('option', {value})));
+}
+
 /** The farthest that a branch takes the free end, as far as chain and arm reach, or a shape of this speed. */
 function reachOfTip() {
     const reach = totalLength(state) + state.radius;
@@ -240,6 +249,7 @@ function reachOfTip() {
 }
 
 function showDiagram() {
+    markSpeeds();
     const said = $('branches-said');
     if (!diagram) write(said, 'Computing …');
     else

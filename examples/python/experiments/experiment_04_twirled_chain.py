@@ -9,8 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import revchain as rc
-from revchain.plots.programs import COLOURS, branch_of, hang, picture, side_view, whirling
-from revchain.plots.style import legend_outside
+from revchain.plots.programs import COLOURS, branch_of, hang, panels, picture, side_view, whirling
 
 LENGTH = 0.36  # m, of the chain, and of the thread of a plummet
 HAND = 0.005  # m, radius of the circle
@@ -87,44 +86,56 @@ born = [more_from(low, high) for low, high in zip(reversals, [*reversals[1:], 5.
 print("two more shapes appear at", *np.round(born, 4), "turns a second")
 
 # %%
-# Above, the response near the vertical, and the shapes at three speeds. Below, every steady shape:
-# the tip against the speed, and all shapes at 3 turns a second in the colours of their branches.
-
-figure = plt.figure(figsize=(8, 7.5), layout="constrained")
-axes = figure.subplot_mosaic([["near", "side"], ["all", "shapes"]], height_ratios=[1.3, 1])
-turns = np.linspace(0.2, 2.8, 1301)
-plummet = rc.plummet.carried_response(LENGTH, rc.conical_pendulum.height(2 * np.pi * turns))
-curves = [("plummet", plummet, "0.45", (2, 0.4)), ("chain", near_the_vertical(turns), COLOURS[0], (1.4, -2))]
-for name, tip, colour, place in curves:
-    axes["near"].plot(turns, np.where(np.abs(tip) < 12, tip, np.nan), color=colour)
-    axes["near"].annotate(name, place, color=colour)
-axes["near"].axhline(0, color="black", linewidth=0.6)
-axes["near"].set(xlabel="speed (turns/s)", ylabel="offset of the tip / of the hand", ylim=(-12, 12))
-axes["near"].set_title("near the vertical")
-
-depth = np.linspace(LENGTH, 0, LINKS + 1)
-for speed, colour in zip((0.7, 1.5, 2.6), ("black", "0.4", "0.65"), strict=True):
-    one = rc.response(carried, angular_speed=2 * np.pi * speed)
-    hang(axes["side"], one.offset, depth, color=colour, label=f"{speed} turns/s")
-axes["side"].axvline(0, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
-axes["side"].plot(HAND, 0, "o", color="black", markersize=4)
-axes["side"].annotate("hand", (HAND, 0), xytext=(4, 0), textcoords="offset points")
-axes["side"].set(xlabel="distance from axis (m)", ylabel="depth below the hand (m)")
-axes["side"].set(ylim=(0.37, -0.01), xlim=(-0.04, 0.04))
-axes["side"].set_title("at three speeds")
-legend_outside(axes["side"])
+# Each colour is a branch, whose shapes change continuously with the speed. Its label gives the
+# speed at which it starts. On the left, the tip against the speed. On the right, the five shapes at
+# 3 turns a second, numbered like the dots.
 
 branches = rc.branches(carried, max_angular_speed=2 * np.pi * 3.2)
-for k, line in enumerate(branches):
-    label = "branch from rest" if line.birth == "rest" else f"isolated branch {k}"
-    axes["all"].plot(line.angular_speed / (2 * np.pi), line.tip_radius, color=COLOURS[k], label=label)
-axes["all"].axhline(0, color="black", linewidth=0.6)
-axes["all"].set(xlabel="speed (turns/s)", ylabel="offset of the tip (m)", title="every steady shape")
-for shape in at_any_inclination(3.0):
-    hang(axes["shapes"], shape.offset, -shape.height, color=COLOURS[branch_of(shape, branches)])
-figure.legend(*axes["all"].get_legend_handles_labels(), loc="outside lower center", ncols=3)
-side_view(axes["shapes"], "every one at 3 turns a second", bottom=0.38, half_width=0.4)
-axes["shapes"].set_ylabel("depth below the hand (m)")
+figure, (curve, side) = panels(2, [1, 1.8], height=4)
+for k, (line, place) in enumerate(zip(branches, [(1.3, 0.25), (1.3, -0.2), (1.6, 0.1)], strict=True)):
+    curve.plot(line.angular_speed / (2 * np.pi), line.tip_radius, color=COLOURS[k], linewidth=2.5)
+    curve.text(*place, f"from {born[k - 1]:.2f}" if k else "from rest", color=COLOURS[k])
+for number, shape in enumerate(sorted(at_any_inclination(3.0), key=lambda shape: shape.offset[0]), 1):
+    colour = COLOURS[branch_of(shape, branches)]
+    curve.plot(3.0, shape.offset[0], "o", color=colour)
+    curve.text(3.0, shape.offset[0] + 0.015, number, color=colour, ha="center")
+    hang(side, shape.offset, -shape.height, color=colour, linewidth=2.5)
+    side.text(shape.offset[0], 0.01 - shape.height[0], number, color=colour, ha="center", va="top")
+curve.axhline(0, color="black", linewidth=0.6)
+curve.set(xlabel="speed (turns per second)", ylabel="offset of the tip (m)", title="every steady shape")
+side_view(side, "the five shapes at 3 turns per second", bottom=0.4, top=0.02, half_width=0.4)
+side.set_ylabel("depth below the hand (m)")
+plt.show()
+
+# %%
+# Near the vertical again. On the left, the chain at three speeds, with distances from the axis
+# enlarged. On the right, its tip against the speed, with dots at the same speeds. At each whirl
+# speed the tip changes to the other side of the axis. The plummet (grey) changes sides once.
+
+figure, (side, curve) = panels(2, [1, 1.4])
+edges = [0.2, *reversals]
+for k, speed in enumerate((0.7, 1.5, 2.6)):
+    one = rc.response(carried, angular_speed=2 * np.pi * speed)
+    hang(side, 1000 * one.offset, np.linspace(LENGTH, 0, LINKS + 1), color=COLOURS[k], linewidth=2.5)
+    side.text(1000 * one.offset[0], LENGTH + 0.005, speed, color=COLOURS[k], ha="center", va="top")
+    turns = np.linspace(edges[k], edges[k + 1], 400)[1:-1]
+    curve.plot(turns, near_the_vertical(turns), color=COLOURS[k], linewidth=2.5)
+    curve.plot(speed, one.offset[0] / HAND, "o", color=COLOURS[k], markersize=8)
+    curve.text(speed, one.offset[0] / HAND - 1, speed, color=COLOURS[k], ha="center", va="top")
+for turns in (np.linspace(0.2, alone, 200)[:-1], np.linspace(alone, 2.8, 400)[1:]):
+    plummet = rc.plummet.carried_response(LENGTH, rc.conical_pendulum.height(2 * np.pi * turns))
+    curve.plot(turns, plummet, color="0.6")
+curve.text(2.8, -0.5, "plummet", color="0.45", ha="right", va="top")
+curve.text(1.65, 9, "tip on the side\nof the hand", ha="center")
+curve.text(1.62, -10, "tip on the\nother side", ha="center")
+curve.axhline(0, color="black", linewidth=0.6)
+curve.set(xlabel="speed (turns per second)", ylabel="offset of the tip / of the hand", xlim=(0.2, 2.8), ylim=(-12, 12))
+curve.set_title("the tip, near the vertical")
+side.axvline(0, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
+side.plot(1000 * HAND, 0, "o", color="black", markersize=8)
+side.text(1000 * HAND, 0, "   hand", va="center")
+side.set(xlabel="distance from axis (mm)", ylabel="depth below the hand (m)", xlim=(-30, 30), ylim=(0.39, -0.02))
+side.set_title("at 0.7, 1.5 and 2.6 turns per second")
 plt.show()
 
 # %%

@@ -9,7 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import revchain as rc
-from revchain.plots.programs import COLOURS, hang, legend_below, panels, picture, side_view, whirling
+from revchain.plots.programs import COLOURS, hang, panels, picture, whirling
 
 THREAD = 1.0  # m, the whole of it
 A = THREAD / 2  # the paper's a; x is how far the upper weight sits above the middle
@@ -35,34 +35,44 @@ for heavier, at in [(2, 0.25), (2, 0.75), (2, 0.5), (3, 0.5)]:
     print(f"{heavier:18}  {at:18.2f}  {numbers}  {turns[1] / turns[0]:16.4f}")
 
 # %%
-# On the left, four modes. C₁ is on the axis, where the line of the lower thread meets it: one
-# conical height above the lowest weight. On the right, both conical heights for every place of the
-# upper weight; dots are the four modes.
+# Both conical heights for every place of the upper weight. In the middle of the thread they are
+# closest. A heavier upper weight brings them closer still. Dots are Thomson's four cases.
 
-figure, axes = panels(5, [1, 1, 1, 1, 2.4], height=5.0)
-for number, panel in enumerate(axes[:4]):
-    at, k = [(0.25, 0), (0.25, 1), (0.75, 0), (0.75, 1)][number]
-    result = rc.modes(rc.Chain(weight=[1, 2], length=[THREAD - at, at]))
-    shape = result.shape[k] * 0.12 / np.max(np.abs(result.shape[k]))
-    level = THREAD - result.conical_height[k]  # of C1, a conical height above the lowest weight
-    hang(panel, shape, [THREAD, at, 0], weights=[30, 60], color=COLOURS[k])
-    panel.plot([shape[0], 0], [THREAD, level], "--", color="0.5", linewidth=1, zorder=1)
-    panel.plot(0, level, "x", color="black")
-    panel.annotate("C₁", (0, level), xytext=(5, -2), textcoords="offset points")
-    title = f"x = {(A - at) / A:+.1f}a\n{result.frequency[k]:.2f} turns/s"
-    side_view(panel, title, bottom=1.06, half_width=0.16)
-    panel.set(xlabel="distance\nfrom axis (m)", xticks=[-0.1, 0.1])
+figure, (axes,) = panels(1, height=4)
+at = np.linspace(0.01, 0.99, 197) * THREAD
+for k, outwards in enumerate([1, -1]):  # above and below 1, the mean of both heights
+    for heavier, strength, side in [(2, 1.0, outwards), (3, 0.6, -outwards), (20, 0.35, -outwards)]:
+        heights = rc.two_links.two_plummets_from_the_middle(A, A - at, weight_ratio=1 / heavier)[:, k] / A
+        axes.plot(at, heights, color=COLOURS[k], alpha=strength, linewidth=2.5)
+        text = f"{heavier} times as heavy"
+        axes.text(A, heights[98] + 0.08 * side, text, color=COLOURS[k], ha="center", va="center")
+    axes.plot([0.25, 0.75], 2 * [1 + outwards * 0.5**0.5], "o", color="black", markersize=7, zorder=3)
+    axes.text(0.01, 1 + 0.5 * outwards, ["slower mode", "faster mode"][k], color=COLOURS[k], va="center")
+axes.set(xlabel="depth of the upper weight below the support (m)", ylabel="conical height / half the thread")
+axes.set(ylim=(0, 2), title="the upper weight 2, 3 and 20 times as heavy as the lower one")
+plt.show()
+
+# %%
+# Thomson's four cases. C₁ is on the axis, where the line of the lower thread meets it: one
+# conical height above the lowest weight. Two threads that whirl at the same speed have it at the
+# same depth.
+
+figure, axes = panels(2)
+for k, panel in enumerate(axes):
+    for axis, at in [(0, 0.25), (1, 0.75)]:
+        result = rc.modes(rc.Chain(weight=[1, 2], length=[THREAD - at, at]))
+        shape = axis + 0.35 * result.shape[k] / np.abs(result.shape[k]).max()
+        level = THREAD - result.conical_height[k]
+        panel.axvline(axis, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
+        panel.plot([shape[0], axis], [THREAD, level], "--", color="0.5", zorder=1)
+        hang(panel, shape, [THREAD, at, 0], weights=[120, 240], color=COLOURS[k], linewidth=2.5)
+        panel.plot(axis, level, "o", color="black", markersize=6, zorder=4)
+    panel.axhline(level, color="black", linewidth=0.8, linestyle=":")
+    panel.text(0.5, level - 0.01, "C₁", ha="center", va="bottom")
+    name = ["slower", "faster"][k]
+    panel.set(title=f"{name} mode: {result.frequency[k]:.2f} turns per second", xlim=(-0.5, 1.5), ylim=(1.06, -0.03))
+    panel.set_xticks([0, 1], ["double weight\na quarter down", "double weight\nthree quarters down"])
 axes[0].set_ylabel("depth below the support (m)")
-
-x = np.linspace(-0.98, 0.98, 197)
-for heavier, style in [(2, "-"), (3, "--"), (20, ":")]:
-    heights = rc.two_links.two_plummets_from_the_middle(1.0, x, weight_ratio=1 / heavier)
-    for k in range(2):
-        axes[4].plot(x, heights[:, k], style, color=COLOURS[k])
-    axes[4].plot([], [], style, color="black", label=f"W₂ = {heavier} W₁")
-axes[4].plot([-0.5, -0.5, 0.5, 0.5], 2 * [1 + 0.5**0.5, 1 - 0.5**0.5], "o", color="black", markersize=4)
-axes[4].set(xlabel="place x/a of the upper weight", ylabel="conical height/a", title="W₂ anywhere", ylim=(0, 2))
-legend_below(axes[4], ncols=1)
 plt.show()
 
 # %%

@@ -9,8 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import revchain as rc
-from revchain.plots.programs import COLOURS, hang, legend_below, picture, side_view, whirling
-from revchain.plots.style import legend_outside
+from revchain.plots.programs import COLOURS, hang, panels, picture, side_view, whirling
 
 LENGTH = 1.0  # m
 PAIR = dict(lower_weight=1, lower_thread=0.5, upper_weight=1, upper_thread=0.25)  # each in the middle of half a chain
@@ -51,7 +50,8 @@ for turns in (0.7, 1.0, 2.0, 3.0):
         print(f"{turns:14.1f}  {shape.half_waves:6}  {shape.offset[0]:10.5f}  {linked.offset[0]:9.5f}")
 
 # %%
-# Two weights in the place of the two halves of the chain behave alike, up to their two shapes.
+# Two weights in the place of the two halves of the chain behave alike, up to their two shapes. The
+# picture has them at 2 turns a second, with the chain as a broad line.
 
 
 def figures(turns):
@@ -65,47 +65,38 @@ for turns in (0.7, 1.0, 2.0, 3.0):
         lower, upper = np.degrees(shape.inclination)
         print(f"{turns:14.1f}  {shape.half_waves:6}  {lower:12.2f}  {upper:5.2f}")
 
+figure, (side,) = panels(1)
+for shape in rc.steady_shapes(cord, angular_speed=2 * np.pi * 2.0):
+    hang(side, shape.offset, -shape.height, color=COLOURS[shape.half_waves - 1], linewidth=8, alpha=0.25)
+for shape in figures(2.0):
+    depth = np.cumsum(np.cos(shape.inclination[::-1]) * [PAIR["upper_thread"], PAIR["lower_thread"]])
+    colour = COLOURS[shape.half_waves - 1]
+    hang(side, [*shape.offset, 0], [*depth[::-1], 0], weights=[150, 150], color=colour, linewidth=2)
+side.text(0.5, 0.14, "1 half wave", color=COLOURS[0])
+side.text(0.06, 0.56, "two weights", color=COLOURS[1])
+side.text(0.3, 0.67, "chain: 2 half waves", color=COLOURS[1])
+side_view(side, "two weights instead of the chain, at 2 turns per second", bottom=0.7, half_width=1)
+side.set(xlim=(-0.35, 1.05), ylabel="depth below the support (m)")
+plt.show()
+
 # %%
-# On the left, the shapes of the chain at 3 turns a second, and of the two weights at three speeds.
-# On the right, the free end against the speed.
+# On the left, the shapes of the chain at 3 turns a second. On the right, how far out its free end
+# is: a curve begins at each whirl speed. Dots are the shapes on the left.
 
-figure = plt.figure(figsize=(8, 6), layout="constrained")
-axes = figure.subplot_mosaic([["chain", "curve"], ["pair", "curve"]], width_ratios=[1.3, 1])
-for shape in rc.steady_shapes(cord, angular_speed=2 * np.pi * 3.0):
-    label, colour = f"{shape.half_waves}", COLOURS[shape.half_waves - 1]
-    hang(axes["chain"], shape.offset, -shape.height, color=colour, label=label)
-side_view(axes["chain"], "chain at 3 turns/s", bottom=1.03, half_width=1)
-axes["chain"].set_xlim(-0.4, 1.05)
-axes["chain"].set_ylabel("depth below the support (m)")
-legend_outside(axes["chain"], title="half waves")
-
-for turns, style in [(0.7, ":"), (1.0, "--"), (2.0, "-")]:
-    for shape in figures(turns):
-        depth = np.cumsum(np.cos(shape.inclination[::-1]) * [PAIR["upper_thread"], PAIR["lower_thread"]])
-        colour = COLOURS[shape.half_waves - 1]
-        hang(axes["pair"], [*shape.offset, 0], [*depth[::-1], 0], weights=[30, 30], color=colour, linestyle=style)
-    axes["pair"].plot([], [], style, color="black", label=f"{turns:.1f}")
-side_view(axes["pair"], "two weights instead", bottom=0.9, half_width=1)
-axes["pair"].set_xlim(-0.4, 1.05)
-axes["pair"].set_ylabel("depth below the support (m)")
-legend_outside(axes["pair"], title="turns/s")
-
-curve = axes["curve"]
-turns = np.linspace(0.4, 3.5, 800)
-for half_waves in (1, 2):
-    tips = [[shape.offset[0] for shape in figures(n) if shape.half_waves == half_waves] for n in turns]
-    curve.plot(turns, [max(tip, default=0) for tip in tips], color=COLOURS[half_waves - 1])
-for half_waves in (1, 2, 3):
-    critical = continuous.frequency[half_waves - 1]
-    faster = turns[turns > critical]
-    shapes = [rc.steady_shapes(cord, angular_speed=2 * np.pi * n)[half_waves - 1] for n in faster]
-    tips = [0.0, *(s.offset[0] for s in shapes)]
-    curve.plot([critical, *faster], tips, ":", color=COLOURS[half_waves - 1])
-curve.plot([], [], color="black", label="two weights")
-curve.plot([], [], ":", color="black", label="chain")
-curve.set(xlabel="speed (turns/s)", ylabel="distance of the free end from axis (m)", ylim=(-0.02, 1.02))
-curve.set_title("the free end; colours: half waves")
-legend_below(curve)
+figure, (side, curve) = panels(2, [1.6, 1])
+for k, line in enumerate(rc.branches(cord, max_angular_speed=2 * np.pi * 3.5)):
+    curve.plot(line.angular_speed / (2 * np.pi), np.abs(line.tip_radius), color=COLOURS[k], linewidth=2.5)
+places = [(0.55, -0.01), (0.34, 0.4), (0.17, 0.76), (0.05, 1.0)]
+for shape, place in zip(rc.steady_shapes(cord, angular_speed=2 * np.pi * 3.0), places, strict=True):
+    waves, colour = shape.half_waves, COLOURS[shape.half_waves - 1]
+    hang(side, shape.offset, -shape.height, color=colour, linewidth=2.5)
+    side.text(*place, f"{waves} half wave{'s' * (waves > 1)}", color=colour)
+    curve.plot(3.0, shape.offset[0], "o", color=colour, markersize=8)
+    curve.text(3.0, shape.offset[0] + 0.03, waves, color=colour, ha="center")
+side_view(side, "the chain at 3 turns per second", bottom=1.03, half_width=1)
+side.set(xlim=(-0.35, 1.05), ylabel="depth below the support (m)")
+curve.set(xlabel="speed (turns per second)", ylabel="distance of the free end from axis (m)")
+curve.set(xlim=(0, 3.6), ylim=(-0.02, 1.08), title="one more shape at each whirl speed")
 plt.show()
 
 # %%

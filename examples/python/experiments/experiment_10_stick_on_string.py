@@ -9,7 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import revchain as rc
-from revchain.plots.programs import COLOURS, hang, legend_below, picture, side_view, whirling
+from revchain.plots.programs import COLOURS, branch_of, hang, panels, picture, side_view, whirling
 
 STRING, STICK = 0.4, 0.6  # m
 GYRATION = STICK / 12**0.5  # about the middle of the stick
@@ -79,40 +79,61 @@ for turns in (0.4, 0.6, 0.8, 1.5, 2.5):
     print(f"{turns:14.1f}   ", "   ".join(f"{stick:6.2f} {string:6.2f}" for stick, string in pairs))
 
 # %%
-# Above, every shape with the hand at rest. Below, the inclinations against the speed, with the hand
-# at rest and on a circle.
+# The hand on its circle. Each colour is a branch, whose shapes change continuously with the speed.
+# Its label gives the speed at which it starts. On the left, the inclination of the stick. On the
+# right, the five shapes at 2.5 turns a second, numbered like the dots.
 
-figure = plt.figure(figsize=(8, 7), layout="constrained")
-axes = figure.subplot_mosaic([["side", "side"], ["curve", "hand"]], height_ratios=[1, 1.2])
-side, curve, hand = (axes[name] for name in ("side", "curve", "hand"))
+
+def draw(axes, hand, shape, colour, text):
+    """Stick and string from the side, and a text at the lower end of the stick."""
+    stick, string = shape.inclination
+    joint = hand + STRING * np.sin(string), STRING * np.cos(string)
+    end = joint[0] + STICK * np.sin(stick), joint[1] + STICK * np.cos(stick)
+    hang(axes, [joint[0], hand], [joint[1], 0], color=colour, linewidth=1.5)
+    hang(axes, [end[0], joint[0]], [end[1], joint[1]], color=colour, linewidth=6, solid_capstyle="butt")
+    axes.text(*end, f"  {text}  ", color=colour, va="center", ha="left" if end[0] > 0 else "right")
+
+
+figure, (curve, side) = panels(2, [1, 1.8], height=4)
+branches = rc.branches(carried, max_angular_speed=2 * np.pi * 4)
+hues = [COLOURS[0], COLOURS[2], COLOURS[1]]
+for line, colour, place in zip(branches, hues, [(0.9, 55), (0.9, -45), (2.75, 15)], strict=True):
+    speeds = line.angular_speed / (2 * np.pi)
+    curve.plot(speeds, np.degrees(line.lowest_inclination), color=colour, linewidth=2.5)
+    curve.text(*place, "from rest" if line.birth == "rest" else f"from {min(speeds):.2f}", color=colour)
+for number, shape in enumerate(sorted(driven(2.5), key=lambda shape: shape.inclination[0]), 1):
+    colour = hues[branch_of(shape, branches)]
+    draw(side, HAND, shape, colour, number)
+    curve.plot(2.5, np.degrees(shape.inclination[0]), "o", color=colour)
+    curve.text(2.5, np.degrees(shape.inclination[0]) + 4, number, color=colour, ha="right" if number == 4 else "left")
+curve.axhline(0, color="black", linewidth=0.6)
+curve.set(xlabel="speed (turns per second)", ylabel="inclination of the stick (°)", yticks=range(-90, 91, 30))
+curve.set_title("hand on a circle of 2 cm")
+side_view(side, "the five shapes at 2.5 turns per second", bottom=1.05, half_width=1.15)
+side.set_ylabel("depth below the hand (m)")
+plt.show()
+
+# %%
+# The hand at rest. On the left, the shapes of the second table, with their turns a second: blue
+# with one half wave, orange with two. On the right, the inclinations of stick (broad) and string.
+
+figure, (side, curve) = panels(2, [1.5, 1])
 for turns in (0.6, 0.8, 1.5, 3.0):
     for shape in figures(turns):
-        stick, string = shape.inclination
-        joint, deep = shape.offset[1], STRING * np.cos(string)
         colour = COLOURS[shape.half_waves - 1]
-        hang(side, [joint, 0], [deep, 0], color="0.4", linewidth=1)
-        end = [joint + STICK * np.sin(stick), joint], [deep + STICK * np.cos(stick), deep]
-        hang(side, *end, color=colour, linewidth=3)
-        side.annotate(f"{turns} turns/s", (end[0][0], end[1][0]), xytext=(5, -4), textcoords="offset points")
-side_view(side, "hand at rest: every shape with a bent string", bottom=1.05, half_width=1)
-side.set(ylabel="depth below the hand (m)", xlim=(-0.35, 1.4))
-
-speeds = np.linspace(0.4, 4, 700)
-for half_waves in (1, 2):
-    for number, style in [(0, "-"), (1, "--")]:
-        lean = [[s.inclination[number] for s in figures(n) if s.half_waves == half_waves] for n in speeds]
-        degrees = [np.degrees(x[0]) if x else np.nan for x in lean]
-        name = f"{['stick', 'string'][number]}, {half_waves} half wave{'s' * (half_waves > 1)}"
-        curve.plot(speeds, degrees, style, color=COLOURS[half_waves - 1], label=name)
-for k, line in enumerate(rc.branches(carried, max_angular_speed=2 * np.pi * 4)):
-    label = "branch from rest" if line.birth == "rest" else f"isolated branch {k}"
-    hand.plot(line.angular_speed / (2 * np.pi), np.degrees(line.lowest_inclination), color=COLOURS[k], label=label)
-for panel, title in [(curve, "hand at rest"), (hand, f"hand on a circle of {HAND} m: the stick")]:
-    panel.axhline(0, color="black", linewidth=0.6)
-    panel.set(xlabel="speed (turns/s)", ylabel="inclination (°)", title=title)
-    panel.set(yticks=range(-90, 91, 30), ylim=(-95, 95))
-legend_below(curve)
-legend_below(hand)
+        draw(side, 0, shape, colour, turns)
+        curve.plot(turns, np.degrees(shape.inclination[0]), "o", color=colour, markersize=7)
+for k, slowest in enumerate(rc.modes(chain).frequency):
+    speeds = slowest + (4 - slowest) * np.linspace(0, 1, 100) ** 2
+    lean = np.degrees([[0, 0], *(figures(n)[k].inclination for n in speeds[1:])])
+    curve.plot(speeds, lean[:, 0], color=COLOURS[k], linewidth=4)
+    curve.plot(speeds, lean[:, 1], color=COLOURS[k], linewidth=1.5)
+for x, y, text, k in [(1.2, 65, "stick and string", 0), (3, 50, "stick", 1), (3, -40, "string", 1)]:
+    curve.text(x, y, text, color=COLOURS[k])
+curve.axhline(0, color="black", linewidth=0.6)
+curve.set(xlabel="speed (turns per second)", ylabel="inclination (°)", yticks=range(-60, 91, 30), ylim=(-65, 95))
+side_view(side, "hand at rest: 0.6, 0.8, 1.5 and 3 turns per second", bottom=1.0, half_width=1)
+side.set(ylabel="depth below the hand (m)", xlim=(-0.35, 1.2))
 plt.show()
 
 # %%

@@ -128,7 +128,9 @@ export function chainFigure({ pins, links, arm, springs, carriage, top, floor, c
   const ball = tall * Math.min(BALL, Math.max(BALLS / heavy, 1.5 * THIN));
   const end = new Vector3(arm, 0, 0), axis = new Vector3(0, 0, 0);
   const hall = arm > 0 && links.some(({ form }) => form === "seat"), mast = hall ? 2.5 * THIN : THIN / 3;
-  const apart = support.distanceTo(end) > 1e-9 * tall, ride = hall && !springs;
+  const ride = hall && !springs, frame = Math.max(0.36 * tall, 1.5 * Math.abs(support.x));
+  const held = arm ? [end].filter((each) => each.distanceTo(support) > 1e-9 * tall)
+    : [-1, 1].map((side) => new Vector3(side * frame, 0, 0));  // springs run from these points
   bar(root, new Vector3(0, floor, 0), new Vector3(0, top, 0), mast * tall, hall ? GREY.support : GREY.axis);
   for (let place = 0; place < (ride ? SEATS : 1); place++) {
     const group = new Group(), others = place > 0;
@@ -142,9 +144,10 @@ export function chainFigure({ pins, links, arm, springs, carriage, top, floor, c
       for (const joint of points.slice(1, -1)) put(group, "ball", GREY.support, joint, Array(3).fill(1.6 * THIN * tall));
     }
     if (arm) bar(group, axis, end, 1.3 * THIN * tall, GREY.support);
-    for (let k = 0; springs && k < 12; k++) {  // zigzag
-      const node = (j) => end.clone().lerp(support, j / 12).setY(j % 12 ? (j % 2 - 0.5) * 0.04 * tall : 0);
-      if (apart) bar(group, node(k), node(k + 1), THIN / 2 * tall, GREY.body);
+    for (const from of springs ? held : []) {
+      const node = (j) => from.clone().lerp(support, j / 12).setY(j % 12 ? (j % 2 - 0.5) * 0.04 * tall : 0);
+      for (let k = 0; k < 12; k++) bar(group, node(k), node(k + 1), THIN / 2 * tall, GREY.body);
+      if (!arm) bar(group, from.clone().setY(-0.06 * tall), from.clone().setY(0.06 * tall), 1.3 * THIN * tall, GREY.support);
     }
     turning.add(group);
   }
