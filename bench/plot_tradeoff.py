@@ -12,21 +12,15 @@ from pathlib import Path
 from picture import ACCURATE, WIDTH, decades, plt, save
 
 FLOOR = 1e-34  # of the error axis: exact results are drawn here
-# Colours that colour-blind readers tell apart (Okabe and Ito): closed and asymptotic formulas warm, numbers cold.
-STYLE = {
-    "closed forms": ("#B8860B", "s"),
-    "Laguerre asymptotics": ("#CC79A7", "v"),
-    "continuous chain": ("#D55E00", "o"),
-    "tapered chain": ("#7B3FA0", "h"),
-    "coarse chain": ("#009E73", "D"),
-    "aberth": ("#56B4E9", "P"),
-    "interpolated": ("#0072B2", "X"),
-    "condensed": ("#0072B2", "o"),
-    "bisection": ("#999999", "^"),
-    "dense": ("#444444", "p"),
-    "double-double": ("#000000", "D"),
-    "finite amplitude": ("#7B3FA0", "*"),
+COLOURS = {  # that colour-blind readers tell apart (Okabe and Ito)
+    "continuous chain": "#D55E00",
+    "coarse chain": "#009E73",
+    "aberth": "#56B4E9",
+    "bisection": "#7B3FA0",
+    "condensed": "#0072B2",
+    "double-double": "#000000",
 }
+OTHERS, BOUNDS = "0.5", "0.7"  # grey dots, grey line
 FORMER = {  # names in files of before 2026-11-23
     "all together": "aberth",
     "interpolated spectrum": "interpolated",
@@ -34,13 +28,9 @@ FORMER = {  # names in files of before 2026-11-23
     "element bisection": "bisection",
 }
 MODES = 3
-PANELS = [  # kind, links, inclination
-    *(("equal rods", 100, 0.0), ("equal rods", 100_000, 0.0), ("random rods", 100, 0.0), ("random rods", 100_000, 0.0)),
-    *(("heavy tip", 100, 0.0), ("equal rods", 100, 0.3)),
-]
+PANELS = [(kind, links) for kind in ("equal rods", "random rods") for links in (100, 100_000)]
 SIZES = (5, 100, 1000, 100_000)
 TABLE = (1e-2, 1e-6, 1e-12, 1e-15, 1e-20)  # tolerances
-TITLE = {"heavy tip": "rods, weights $10^{12}$ … 1 upward"}
 
 
 @dataclass(frozen=True)
@@ -51,7 +41,6 @@ class Point:
     error: float
     bound: float
     us: float
-    chosen: bool
 
 
 def read(path):
@@ -63,104 +52,62 @@ def read(path):
         if row["took_us"]:
             key = row["scene"], int(row["links"]), int(row["modes"]), float(row["inclination"])
             numbers = (float(row[name]) for name in ("error", "bound", "took_us"))
-            points.setdefault(key, []).append(Point(FORMER.get(row["model"], row["model"]), *numbers, bool(row["chosen_from"])))
+            points.setdefault(key, []).append(Point(FORMER.get(row["model"], row["model"]), *numbers))
     return points, [line[2:] for line in lines if line.startswith("# ") and "SPDX" not in line]
 
 
-def style(model):
-    return STYLE.get(model, ("#444444", "p"))
-
-
 def front(points):
-    """Corners of the least time in which each bound can be had, from the loosest on."""
-    corners, least = [], float("inf")
+    """The answers that no other one with as tight a bound beats in time, the loosest bound first."""
+    fastest = []
     for point in sorted(points, key=lambda p: p.bound):  # the tightest first: looser ones must be faster
-        if point.us < least:
-            corners.append((max(point.bound, FLOOR), point.us))
-            least = point.us
-    return corners[::-1]
+        if not fastest or point.us < fastest[-1].us:
+            fastest.append(point)
+    return fastest[::-1]
 
 
-def draw(axis, points, size=6.0):
-    corners = front(points)
-    if corners:
-        start, end = (1e3, corners[0][1]), (corners[-1][0], 1e12)  # from no digits at all; beyond the last, at no price
-        axis.step(*zip(start, *corners, end), where="pre", color="0.75", linewidth=1.8, zorder=1)
-    for point in points:
-        colour, marker = style(point.model)
-        error = max(point.error, FLOOR)
-        axis.plot([error, max(point.bound, FLOOR)], [point.us] * 2, color=colour, alpha=0.45, linewidth=1.1, zorder=2)
-        axis.plot(error, point.us, marker, color=colour, markersize=size, markeredgewidth=0, zorder=3)
-        if point.chosen:
-            axis.plot(
-                error,
-                point.us,
-                "o",
-                color="black",
-                markersize=size + 5,
-                markerfacecolor="none",
-                markeredgewidth=0.9,
-                zorder=4,
-            )
+def draw(axis, points):
+    """The fastest answers in colour, with names; the others as grey dots."""
+    fastest = front(points)
+    corners = [(max(point.bound, FLOOR), point.us) for point in fastest]
+    start, end = (1e3, corners[0][1]), (corners[-1][0], 1e12)  # from no digits at all; beyond the last, at no price
+    axis.step(*zip(start, *corners, end), where="pre", color=BOUNDS, linewidth=1.8, zorder=1)
+    others = [point for point in points if point not in fastest]
+    axis.plot([max(point.error, FLOOR) for point in others], [point.us for point in others], "o", color=OTHERS, markersize=3.5)
+    named = set()
+    for point in fastest:
+        colour, error = COLOURS.get(point.model, "black"), max(point.error, FLOOR)
+        axis.plot([error, max(point.bound, FLOOR)], [point.us] * 2, color=colour, linewidth=1.3, zorder=2)
+        axis.plot(error, point.us, "o", color=colour, markersize=8, markeredgewidth=0, zorder=3)
+        if point.model not in named:
+            side, dx = ("left", -4) if error > 1e-20 else ("right", 4)
+            label = {"textcoords": "offset points", "color": colour, "ha": side, "va": "top"}
+            axis.annotate(point.model, (error, point.us), (dx, -8), **label)
+        named.add(point.model)
     axis.set_xscale("log")
     axis.set_yscale("log")
     axis.grid(True, which="major", color="0.93")
 
 
-def key_handles(models):
-    handles = [
-        plt.Line2D(
-            [],
-            [],
-            linestyle="",
-            marker=style(model)[1],
-            color=style(model)[0],
-            markersize=6.5,
-            markeredgewidth=0,
-            label=model,
-        )
-        for model in [*STYLE, *sorted(models - set(STYLE))]
-        if model in models
-    ]
-    handles.append(
-        plt.Line2D(
-            [],
-            [],
-            linestyle="",
-            marker="o",
-            color="black",
-            markersize=11,
-            markerfacecolor="none",
-            markeredgewidth=0.9,
-            label="taken for some tolerance",
-        )
-    )
-    handles.append(plt.Line2D([], [], color="#0072B2", alpha=0.6, linewidth=1.1, label="from the error to its bound"))
-    handles.append(plt.Line2D([], [], color="0.75", linewidth=1.8, label="shortest time for a bound"))
-    return handles
-
-
 def picture(points):
     """A panel for each kind of chain; of a quick run those it has."""
-    shown = [panel for panel in PANELS if (panel[0], panel[1], MODES, panel[2]) in points]
-    figure, axes = plt.subplots(
-        -(-len(shown) // 2), 2, figsize=(WIDTH, 2.9 * -(-len(shown) // 2) + 1.8), sharex=True, sharey=True, layout="constrained"
-    )
-    models = set()
-    for (kind, links, inclination), axis in zip(shown, axes.flat):
-        here = points[kind, links, MODES, inclination]
-        models |= {point.model for point in here}
-        draw(axis, here)
-        lean = f" at {inclination:g} rad" if inclination else ""
-        axis.set_title(f"{links:,} {TITLE.get(kind, kind)}{lean}")
-    axes.flat[0].set_xlim(30, 1e-34)
-    axes.flat[0].set_ylim(0.04, 2e6)
-    decades(axes.flat[0].xaxis, -32, 0, 8)
-    decades(axes.flat[0].yaxis, -1, 6, 1)
-    for axis in axes.flat[len(shown) - 2 : len(shown)]:
+    shown = [panel for panel in PANELS if (*panel, MODES, 0.0) in points]
+    rows = -(-len(shown) // 2)
+    size = {"figsize": (WIDTH, 2.9 * rows + 0.4), "layout": "constrained"}
+    figure, axes = plt.subplots(rows, 2, sharex=True, sharey=True, squeeze=False, **size)
+    for (kind, links), axis in zip(shown, axes.flat):
+        draw(axis, points[kind, links, MODES, 0.0])
+        axis.set_title(f"{links:,} {kind}")
+    first = axes.flat[0]
+    first.set_xlim(30, 1e-34)
+    first.set_ylim(0.02, 2e6)
+    decades(first.xaxis, -32, 0, 8)
+    decades(first.yaxis, 0, 6, 3)
+    first.yaxis.set_major_formatter(lambda us, _: time_text(us))
+    first.text(1e-1, 35, "other answers", color=OTHERS)
+    first.text(3e-26, 2e5, "shortest time\nfor a bound", color=OTHERS, ha="right")
+    for axis in axes[-1]:
         axis.set_xlabel(ACCURATE)
-    figure.supylabel("CPU time (µs); faster is lower", fontsize="medium")
-    figure.legend(handles=key_handles(models), loc="outside lower center", ncols=3)
+    figure.supylabel("CPU time, faster \N{DOWNWARDS ARROW}", fontsize="medium")
     return figure
 
 
@@ -181,7 +128,7 @@ def table(points):
 
 def time_text(us):
     """Two digits."""
-    number, unit = (us / 1e3, "ms") if us >= 1000 else (us, "µs")
+    number, unit = (us / 1e6, "s") if us >= 1e6 else (us / 1e3, "ms") if us >= 1e3 else (us, "µs")
     return f"{float(f'{number:.2g}'):g} {unit}"
 
 

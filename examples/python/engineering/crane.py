@@ -20,19 +20,25 @@ def hanging(rope):
 
 
 modes = rc.modes(hanging(10.0))
-figure, axes = plt.subplots(figsize=(4.8, 3.4), layout="constrained")
-axes.plot([-9, -9, 2], [24, 0, 0], color="0.3", linewidth=6)
-for side, strength in ((-1, 0.3), (1, 1.0)):
-    axes.plot(3 * side * modes.shape[0], [16, 10, 0], color="C0", linewidth=2, alpha=strength)
-    axes.scatter(3 * side * modes.shape[0, :2], [16, 10], s=[260, 70], color="C0", alpha=strength)
-axes.set(xlabel="distance from axis (m)", ylabel="depth below the jib (m)")
-axes.set(xlim=(-10, 6), ylim=(24, -1), aspect="equal")
+figure, panels = plt.subplots(1, 2, figsize=(4.8, 3.4), layout="constrained")
+for axes, name, shape, period in zip(panels, ("slower", "faster"), modes.shape, modes.period):
+    axes.plot([-6, -6, 5], [21, 0, 0], color="0.3", linewidth=5)
+    axes.plot([0, 0], [0, 20], color="0.6", linestyle="-.", linewidth=0.8, zorder=0)
+    axes.plot(0, 0, "s", color="black", markersize=10, zorder=3)
+    for offset, strength in ((-3 * shape, 0.25), (3 * shape, 1.0)):
+        axes.plot(offset, [16, 10, 0], color="C0", linewidth=2, alpha=strength)
+        axes.plot(offset[1], 10, "o", color="C0", markersize=9, markeredgewidth=0, alpha=strength)
+        axes.plot(offset[0], 16, "s", color="C1", markersize=17, markeredgewidth=0, alpha=strength)
+    axes.axis("off")
+    axes.set(title=f"{name} mode: {period:.2f} s", xlim=(-6.5, 7.5), ylim=(21, -2), aspect="equal")
+for text, *place in (("trolley", 1, 1.8), ("rope", 1.8, 6), ("hook\nblock", 3, 11), ("load", 4.7, 16.5)):
+    panels[0].text(*place, text)
 plt.show()
 
 # %%
 # Hook block and load are a double pendulum, which can whirl in two ways: with the load and the
-# block on the same side, as in the picture, and with the load and the block on opposite sides.
-# ``modes.plot()`` shows both, with their speeds. The offsets are exaggerated.
+# block on the same side, and on opposite sides. The picture shows both with 10 m of rope, also half
+# a turn later (pale). The offsets are exaggerated.
 #
 # Both whirl speeds rise as the rope is wound in.
 
@@ -50,11 +56,14 @@ print(f"slewing at {SLEWING} rad/s meets the slower one with {met.value:.3f} m o
 
 lengths = np.linspace(2.0, 28.0, 105)
 figure, axes = plt.subplots(figsize=(8, 4), layout="constrained")
-axes.plot(lengths, [rc.modes(hanging(rope)).angular_speed for rope in lengths], label=["slower mode", "faster mode"])
-axes.axhline(SLEWING, color="0.4", linestyle="--", label="slewing")
-axes.axvline(met.value, color="0.4", linestyle=":", label=f"{met.value:.2f} m: avoid")
+axes.plot(lengths, [rc.modes(hanging(rope)).angular_speed for rope in lengths])
+axes.axhline(SLEWING, color="0.4", linestyle="--")
+axes.plot(met.value, SLEWING, "o", color="black")
+axes.text(20, 4.1, "faster mode", color="C1")
+axes.text(20, 0.25, "slower mode", color="C0")
+axes.text(24, 0.95, "slewing", color="0.4")
+axes.text(met.value, 1.1, f"avoid {met.value:.2f} m")
 axes.set(xlabel="length of rope (m)", ylabel="whirl speed (rad/s)", ylim=(0, None))
-axes.legend()
 plt.show()
 
 # %%

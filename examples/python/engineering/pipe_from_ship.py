@@ -32,18 +32,25 @@ rig = hung(600.0)
 depth = np.append(np.cumsum(rig.chain.length[::-1])[::-1], 0.0)
 
 figure, axes = plt.subplots(figsize=(4.8, 3.4), layout="constrained")
-axes.set_facecolor("#e8f2fa")
-for period in (6.0, 8.0, 13.0):
+x = np.linspace(-6, 5, 300)
+axes.fill_between(x, 6 * np.sin(4 * x), 650, color="#d6e9f5")
+axes.fill([0.3, 3.7, 4.2, -0.2], [18, 18, -35, -35], color="0.3", zorder=3)
+axes.plot([1.6, 2, 2.4], [-35, -110, -35], color="0.3", linewidth=2)
+for number, period in enumerate((6.0, 8.0, 13.0)):
     found = rc.response(rig, angular_speed=2 * np.pi / period, support_radius=SWAY)
-    axes.plot(found.offset, depth, linewidth=2.5, label=f"waves of {period:g} s")
+    axes.plot(found.offset, depth, linewidth=2.5, color=f"C{number}")
+    axes.plot(found.offset[0], depth[0], "s", markersize=9, color=f"C{number}")
+    left = found.offset.argmin()
+    axes.text(found.offset[left] - 0.2, depth[left], f"waves of {period:g} s", color=f"C{number}", ha="right")
+axes.text(1.4, 618, "valve block", color="0.3")
 axes.axvline(0, color="0.6", linestyle="-.", linewidth=0.8)
-axes.set(xlabel="offset (m)", ylabel="depth (m)", ylim=(630, 0), xlim=(-6, 3))
-axes.legend(loc="lower left")
+axes.set(xlabel="offset (m), ship not to scale", xlim=(-6, 5))
+axes.set(ylabel="depth (m)", ylim=(650, -120), yticks=range(0, 601, 200))
 plt.show()
 
 # %%
-# The picture shows 600 m of pipe when the ship sways by 2 m in waves of three periods. In waves of
-# 6 s the pipe bends in several half waves, and the block hardly moves.
+# The picture shows 600 m of pipe when the ship sways by 2 m in waves of three periods. In shorter
+# waves the pipe bends in more half waves. The block moves less than the ship.
 #
 # The sea is still except for the motion of the ship, and the pipe is full of water. In the fluid,
 # tension uses the net weight and inertia the full mass with the added mass. Bending stiffness
@@ -69,10 +76,12 @@ for mode in (1, 2):
     print(f"mode {mode + 1} is in waves of {WAVES[0]:g} to {WAVES[1]:g} s from {low:.0f} to {high:.0f} m of pipe")
 
 figure, axes = plt.subplots(figsize=(8, 4), layout="constrained")
-axes.axhspan(*WAVES, color="0.9", label="waves")
-axes.plot(lengths, periods, label=[f"mode {mode}" for mode in (1, 2, 3, 4)])
-axes.set(xlabel="pipe (m)", ylabel="period (s)", ylim=(0, 40), xlim=(100, 1200))
-axes.legend(loc="upper right")
+axes.axhspan(*WAVES, color="0.9")
+axes.plot(lengths, periods)
+axes.text(1190, 6.3, "most waves", color="0.3", ha="right")
+for mode, place in enumerate(((365, 37), (800, 24.3), (1000, 15.8), (1000, 8.2)), 1):
+    axes.text(*place, f"mode {mode}", color=f"C{mode - 1}", ha="right")
+axes.set(xlabel="length of the pipe (m)", ylabel="period (s)", ylim=(0, 40), xlim=(100, 1200))
 plt.show()
 
 # %%

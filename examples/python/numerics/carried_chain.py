@@ -15,13 +15,13 @@ chain = rc.Chain.uniform_rods(LINKS, length=LENGTH)
 depth = np.linspace(LENGTH, 0, LINKS + 1)
 
 figure, axes = plt.subplots(figsize=(4.8, 3.4), layout="constrained")
-for turns in (0.5, 1.5, 2.8):
+for turns, colour, place in ((0.5, "C0", (13.5, 0.2)), (1.5, "C1", (-27, 0.29)), (2.8, "C2", (20, 0.325))):
     found = rc.response(chain, angular_speed=2 * np.pi * turns, support_radius=HAND)
-    axes.plot(1000 * found.offset, depth, linewidth=2.5, label=f"{turns} turns/s")
+    axes.plot(1000 * found.offset, depth, linewidth=2.5, color=colour)
+    axes.text(*place, f"{turns} turns/s", color=colour)
 axes.plot(1000 * HAND, 0, "o", color="black", markersize=9, clip_on=False)
 axes.axvline(0, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
 axes.set(xlabel="distance from axis (mm)", ylabel="depth below the hand (m)", ylim=(0.37, -0.01))
-axes.legend(loc="upper left", fontsize="small")
 plt.show()
 
 # %%
@@ -51,38 +51,32 @@ print(
 rc.swing(chain, np.linspace(0.0, 2.0, 401), offset=plucked).show()
 
 # %%
-# The whole sweep of speeds, the shapes, and the free end after the release.
+# The left picture has the whole sweep of speeds. Dash-dotted lines mark the whirl speeds, and the
+# grey line is the hand. The right picture is the free end after the release.
 
 speeds = np.linspace(1, 28, 1400)
 sweep = rc.response(chain, angular_speed=speeds, support_radius=HAND)
 print(f"{speeds.size} speeds: error bounds up to {sweep.error_bound.max():.2g} of the largest offset")
 
-BELOW = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.15)}
-figure, (curve, shapes, time) = plt.subplots(1, 3, figsize=(9, 4.5), layout="constrained", width_ratios=[1.6, 0.9, 1.2])
-for pin, colour, name in ((0, "C0", "free end"), (LINKS // 2, "C1", "half way")):
-    size, side = np.abs(sweep.offset[:, pin]), np.sign(sweep.offset[:, pin])
-    curve.plot(speeds / (2 * np.pi), np.where(side > 0, size, np.nan), color=colour, label=name)
+figure, (curve, time) = plt.subplots(1, 2, figsize=(8, 4), layout="constrained")
+for pin, colour, name, *place in ((0, "C0", "free end", 2.6, 20), (LINKS // 2, "C1", "middle", 1.6, 0.8)):
+    size, side = 1000 * np.abs(sweep.offset[:, pin]), sweep.offset[:, pin]
+    curve.plot(speeds / (2 * np.pi), np.where(side > 0, size, np.nan), color=colour)
     curve.plot(speeds / (2 * np.pi), np.where(side < 0, size, np.nan), color=colour, linestyle="--")
+    curve.text(*place, name, color=colour)
 for frequency in rc.modes(chain, count=3).frequency:
     curve.axvline(frequency, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
-curve.axhline(HAND, color="0.6", linewidth=0.8, zorder=0)
-curve.plot([], [], color="0.3", linestyle="--", label="opposite to the hand")
-curve.set(yscale="log", ylim=(3e-4, 1), xlabel="speed (turns/s)", ylabel="distance from axis (m); grey: hand")
-curve.set_title("hand carried round 0.01 m")
-curve.legend(**BELOW)
+curve.axhline(1000 * HAND, color="0.6", linewidth=0.8, zorder=0)
+curve.text(3.65, 0.4, "dashed:\nopposite\nto the hand")
+curve.set(yscale="log", ylim=(0.3, 1000), xlabel="speed (turns/s)", ylabel="distance from axis (mm)")
+curve.set_title("hand carried round 10 mm from the axis")
 
-for turns in (0.5, 1.5, 2.8):
-    one = rc.response(chain, angular_speed=2 * np.pi * turns, support_radius=HAND)
-    shapes.plot(one.offset, depth, label=f"{turns} turns/s")
-shapes.axvline(0, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
-shapes.set(xlabel="distance from axis (m)", ylabel="depth below the hand (m)", title="shapes")
-shapes.set(xticks=[-0.02, 0.0, 0.02], ylim=(0.37, -0.01))
-shapes.legend(**BELOW)
-
-time.plot(moments, swing.offset[:, 0], linewidth=0.9, label="all modes")
-time.plot(moments, few.offset[:, 0], linewidth=0.9, linestyle="--", label="three slowest modes")
-time.set(xlabel="time (s)", ylabel="offset of the free end (m)", title="plucked 0.01 m half way")
-time.legend(**BELOW)
+time.plot(moments, 1000 * swing.offset[:, 0], linewidth=1)
+time.plot(moments, 1000 * few.offset[:, 0], linewidth=1, linestyle="--")
+time.set(title="plucked 10 mm in the middle, released")
+time.set(xlabel="time (s)", ylabel="offset of the free end (mm)", ylim=(-32, 32))
+time.text(0.1, 27, "all modes", color="C0")
+time.text(2.1, 27, "three slowest modes", color="C1")
 plt.show()
 
 # %%

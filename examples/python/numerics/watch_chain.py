@@ -18,7 +18,7 @@ depth = np.linspace(0.36, 0, 121)
 for view in np.cos(np.linspace(np.pi, 0, 7)):  # at seven moments of half a turn
     axes.plot(view * modes.shape[3], depth, color="C0", linewidth=2.5, alpha=1.0 if view == 1 else 0.25)
 axes.plot(0 * modes.nodes[3], 0.36 - modes.nodes[3], "o", color="black")
-axes.set(xlabel="offset, largest = 1", ylabel="depth (m)", ylim=(0.37, -0.01))
+axes.set(xlabel="offset, largest = 1", ylabel="depth below the support (m)", xticks=[-1, 0, 1], ylim=(0.37, -0.01))
 plt.show()
 
 # %%
