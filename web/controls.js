@@ -3,6 +3,8 @@
 
 const digits = (x, n = 4) => (Number.isFinite(x) ? String(Number(x.toPrecision(n))) : '–');
 const shortBound = (x) => (Number.isFinite(x) ? x.toExponential(1) : 'not proved');
+/** A number that has four digits once it is multiplied by `factor`. */
+const rounded = (x, factor = 1) => Number((x * factor).toPrecision(4)) / factor;
 const plural = (n, what) => `${n} ${what}${n === 1 ? '' : 's'}`;
 
 function element(name, properties = {}, ...children) {
@@ -18,8 +20,8 @@ function svgElement(viewBox) {
 }
 
 /** A slider and a field for `owner[key]`. `scale` takes the slider's 0 ... 1000 to the number and back; the field shows
- * the number times what `times` returns, in `unit`, a word or an element. */
-function slider(owner, key, {label, unit = '', scale, least = -Infinity, main = false, id = '', set, times = () => 1}) {
+ * the number, or what `shown` returns instead, times what `times` returns, in `unit`, a word or an element. */
+function slider(owner, key, {label, unit = '', scale, least = -Infinity, id = '', set, times = () => 1, shown, main}) {
     const range = element('input', {type: 'range', min: 0, max: 1000, step: 'any', id, ariaLabel: label});
     const ariaLabel = `${label}, as a number`;
     const field = element('input', {type: 'number', step: 'any', className: 'number', ariaLabel});
@@ -29,13 +31,13 @@ function slider(owner, key, {label, unit = '', scale, least = -Infinity, main = 
         changed();
     };
     const show = () => {
-        const value = owner[key] ?? 0;
+        const value = shown?.() ?? owner[key] ?? 0;
         range.value = scale.to(value);
         range.setAttribute('aria-valuetext', `${digits(value * times())} ${unit.value ?? unit}`);
-        if (document.activeElement !== field) field.value = digits(value * times(), 6);
+        if (document.activeElement !== field) field.value = digits(value * times());
     };
     range.oninput = () => {
-        put(scale.from(Number(range.value)));
+        put(rounded(scale.from(Number(range.value)), times())); // to what the field shows
         show();
     };
     field.onchange = () => {
@@ -61,7 +63,7 @@ function logarithmic(x) {
     const middle = x > 0 ? x : 1;
     return {
         to: (y) => 500 + 250 * Math.log10(Math.max(y, 1e-300) / middle),
-        from: (t) => Number((middle * 10 ** ((t - 500) / 250)).toPrecision(4)),
+        from: (t) => middle * 10 ** ((t - 500) / 250),
     };
 }
 
@@ -72,7 +74,6 @@ function buildSliders() {
     unit.value = state.unit;
     unit.onchange = () => {
         state.unit = unit.value;
-        speedSlider.show();
         showStory();
         modesShown = false;
         dirty = true;
@@ -82,6 +83,7 @@ function buildSliders() {
         label: 'Speed',
         unit,
         times: () => UNITS[state.unit],
+        shown: speedOfMode,
         main: true,
         id: 'speed',
         least: 0,
@@ -107,12 +109,13 @@ function buildSliders() {
             scale: linear(0, () => most),
         }),
     ];
-    const spring = element('input', {type: 'checkbox', checked: state.stiffness !== null});
+    const spring = element('input', {type: 'checkbox', id: 'spring', checked: state.stiffness !== null});
     spring.onchange = () => {
         const weight = state.gravity * state.parts.reduce((sum, part) => sum + part[PART.count] * part[PART.mass], 0);
         state.stiffness = spring.checked ? Number(((4 * weight) / totalLength(state)).toPrecision(3)) : null;
         if (!spring.checked) state.carriage = 0;
         buildSliders();
+        $('spring').focus();
         changed();
     };
     const held = [];
@@ -162,7 +165,7 @@ function numbersOf(part, kind) {
 
 function partBox(part, index) {
     const options = Object.entries(KIND_WORDS).map(([value, textContent]) => element('option', {value, textContent}));
-    const kind = element('select', {ariaLabel: `kind of part ${index + 1}`}, ...options);
+    const kind = element('select', {id: `part${index}-kind`, ariaLabel: `kind of part ${index + 1}`}, ...options);
     kind.value = kindOf(part);
     kind.onchange = () => {
         setKind(part, kind.value);
@@ -171,6 +174,7 @@ function partBox(part, index) {
             part[PART.centroid] = 0.6 * part[PART.length];
         }
         buildParts();
+        $(kind.id).focus();
         changed();
     };
     const remove = element('button', {type: 'button', textContent: 'Remove'});
@@ -178,6 +182,7 @@ function partBox(part, index) {
         state.parts.splice(index, 1);
         state.forms.splice(index, 1);
         buildParts();
+        $('add').focus();
         changed();
     };
     const boxes = numbersOf(part, kind.value).map(([key, label, unit, scale, more]) => {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 // Pictures: the chain in space (three.js), a shape from the side and the diagram of branches (SVG).
 
+const AXIS = 'stroke-dasharray="8 3 1.5 3"';
 const waveName = (halfWaves) => `--w${((halfWaves - 1) % 6) + 1}`;
 const waveColour = (halfWaves) => `var(${waveName(halfWaves)})`;
 
@@ -30,13 +31,13 @@ function solidsOf(links, forms) {
         const rod = (Math.sqrt(3) * link[PART.gyration]) / link[PART.length];
         return {
             form: forms[m] || (link[PART.momentum] || link[PART.axial] ? 'wheel' : ''),
-            size: Math.cbrt(link[PART.mass] / heaviest),
+            size: Math.cbrt(link[PART.mass] / heaviest) || 1e-3, // a string has the colour of the chain
             along: link[PART.centroid] / link[PART.length],
             rod: rod < 1 ? rod : 0, // what is longer is no rod
             gyration: link[PART.gyration],
             ahead: Math.sign(link[PART.momentum] + link[PART.axial]) || 1,
             stands: Boolean(link[PART.stands]),
-            plain: kindOf(link) === 'rod',
+            plain: kindOf(link) === 'rod' || !link[PART.mass],
         };
     });
 }
@@ -58,14 +59,15 @@ function stageIn(element) {
     }
 }
 
-/** The chain `figure` {links, forms, offset, height, halfWaves} on the stage, with its support and its arm. */
+/** The chain `figure` {links, forms, offset, height, halfWaves} on the stage, with its support and its arm. A mode is
+ * drawn about the line in which the chain hangs, without the arm. */
 function putOnStage(stage, {radius, carriage, stiffness}, figure, speed, afresh) {
     const pins = Array.from(figure.offset, (r, i) => [r, figure.height[i]]);
     const [floor, top] = [Math.min(0, ...figure.height), Math.max(0, ...figure.height)];
     const shown = viewer.chainFigure({
         pins,
         links: solidsOf(figure.links, figure.forms),
-        arm: radius,
+        arm: figure.isMode ? 0 : radius,
         springs: stiffness !== null,
         carriage: stiffness === null ? 0 : carriage,
         turns: Math.sign(speed) || 1,
@@ -79,7 +81,17 @@ function putOnStage(stage, {radius, carriage, stiffness}, figure, speed, afresh)
 
 const CARD = [124, 92]; // as in the element's viewBox
 
-/** A shape from the side, in a card. */
+/** Nodes of a mode on the axis, as [0, height]; they are given by their distances from the free end. */
+function nodesOf({links, nodes = [], height}) {
+    if (links.some((link) => link[PART.stands])) return [];
+    return Array.from(nodes, (left) => {
+        let m = 0;
+        while (m < links.length - 1 && left > links[m][PART.length]) left -= links[m++][PART.length];
+        return [0, height[m] + (left / links[m][PART.length]) * (height[m + 1] - height[m])];
+    });
+}
+
+/** A shape from the side, in a card: its axis, its arm, and the nodes of a mode as rings. */
 function drawSide(svg, figure) {
     const ends = (list) => [Math.min(0, ...list), Math.max(0, ...list)];
     const [left, right] = ends(figure.offset),
@@ -88,8 +100,10 @@ function drawSide(svg, figure) {
     const at = (r, z) => [CARD[0] / 2 + scale * (r - (left + right) / 2), 7 + scale * (top - z)];
     const pins = Array.from(figure.offset, (r, i) => at(r, figure.height[i]));
     svg.innerHTML =
-        curve([at(0, top), [at(0, 0)[0], CARD[1] - 4]], 'var(--line)') +
+        curve([at(0, top), [at(0, 0)[0], CARD[1] - 4]], 'var(--soft)', AXIS) +
+        curve([at(0, figure.height.at(-1)), pins.at(-1)], 'var(--ink)') +
         curve(pins, waveColour(figure.halfWaves), 'stroke-width="2"') +
+        nodesOf(figure).map((node) => dot(at(...node), 2.5, 'var(--ink)', true)).join('') +
         dot(pins.at(-1), 2.5, 'var(--ink)');
 }
 
@@ -118,8 +132,8 @@ function branchCurves({speed, tip, halfWaves}, {x, y}) {
     return text;
 }
 
-/** Distance of the free end from the axis against speed. Filled dots: stable shapes; hollow ones: others. */
-function drawDiagram(svg, {branches, shapes, selected, speed, top, reach, unit}) {
+/** Distance of the free end, in words `end`, from the axis against speed. Stable shapes are filled dots, others hollow. */
+function drawDiagram(svg, {branches, shapes, selected, speed, top, reach, unit, end}) {
     const scale = diagramScale(top, reach),
         {x, y} = scale,
         {left, right, bottom, width, height} = DIAGRAM;
@@ -135,7 +149,7 @@ function drawDiagram(svg, {branches, shapes, selected, speed, top, reach, unit})
     }
     text += label([(left + width) / 2, height - 5], `speed (${unit})`, 'text-anchor="middle"');
     const upright = `text-anchor="middle" transform="translate(11 ${height / 2 - 10}) rotate(-90)"`;
-    text += label([0, 0], 'free end from axis (m)', upright);
+    text += label([0, 0], `${end} from axis (m)`, upright);
     text += `<svg x="0" y="0" width="${right}" height="${bottom}">`; // which cuts off what goes farther
     for (const branch of branches) text += branchCurves(branch, scale);
     text += '</svg>' + curve([[x(speed), y(0)], [x(speed), y(reach)]], 'var(--accent)', 'stroke-dasharray="5 4"');

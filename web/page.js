@@ -5,9 +5,21 @@ const $ = (id) => document.getElementById(id);
 const MOST_CARDS = 60;
 const VERDICT_WORDS = {
     minimum: 'stable',
-    'spectrally stable': 'stable without friction',
+    'spectrally stable': 'stable only without friction',
     unstable: 'unstable',
     undecided: 'stability open',
+};
+const CROSSINGS = ['', 'crosses the axis once', 'crosses the axis twice'];
+const MOST_JUDGED = 50; // links of a chain whose stability is computed, as in engine.js
+/** The free end of a chain by the form of its lowest link. */
+const ENDS = {seat: 'chair', crate: 'load', jar: 'jar', clapper: 'clapper'};
+/** The list of examples in groups. */
+const GROUPS = {
+    'Weights and chains': 'two_weights bernoulli_chain plucked_chain weight_ratio ball_on_chain watch_chain',
+    'Rods and loads': 'stick_on_string rods_on_threads jointed_rod crane_hook_block',
+    'Bells and moving supports':
+        'clamped_bell bell_and_clapper bell_on_soft_frame swing_carousel chair_o_plane carriage_on_springs',
+    'Balancing and spinning': 'broomstick acrobat bicycle_wheels two_gyrostats',
 };
 /** Where questions take too long for a slider: links of a chain whose shapes are listed and whose diagram is proved. */
 const REQUEST = {mostLinks: 200, budget: 4e5, proofLinks: 24, lists: 16, listBudget: 3e6, proofBudget: 1e6}; // as in Python
@@ -77,12 +89,12 @@ function heardModes(part, request) {
     if (state.speed === null) {
         const first = modes.modes.find((mode) => mode.speed > 0);
         const factor = UNITS[state.unit];
-        state.speed = Number((1.15 * factor * (first?.speed ?? top / 4)).toPrecision(3)) / factor;
+        const part = state.radius ? 0.85 : 1.15; // a carried chain swings out before its first mode
+        state.speed = Number((part * factor * (first?.speed ?? top / 4)).toPrecision(3)) / factor;
         now.ask({...request, modes: 0, speed: state.speed});
         saveLink();
     }
     askDiagram();
-    speedSlider.show();
 }
 
 function heard({part, time, request}) {
@@ -108,13 +120,21 @@ function heard({part, time, request}) {
 /** The figure of a mode: heights of the straight chain, offsets of a quarter of its length at most; where links are few,
  * none leans by more than 45 degrees. */
 function figureOf(mode) {
-    const {links, forms} = modes,
+    const {links, forms, backward} = modes,
         length = links.reduce((sum, link) => sum + link[PART.length], 0);
     const lean = links.map((link, m) => Math.abs(mode.offset[m] - mode.offset[m + 1]) / link[PART.length]);
     const size = Math.min(length / 4, links.length > 12 ? Infinity : 1 / Math.max(...lean));
     const offset = mode.offset.map((y) => y * size);
-    return {...mode, links, forms, offset, height: heightsOf(links, new Float64Array(offset.length)), halfWaves: mode.nodes.length + 1, isMode: true};
+    const height = heightsOf(links, new Float64Array(offset.length));
+    const name = `Mode ${mode.number}${backward ? (mode.speed < 0 ? ' backward' : ' forward') : ''}`;
+    const halfWaves = backward ? 1 + (mode.speed < 0) : mode.nodes.length + 1; // which chooses the colour
+    return {...mode, name, links, forms, offset, height, halfWaves, isMode: true};
 }
+
+/** The speed of the mode that is shown; null while a shape is shown. */
+const speedOfMode = () => (chosen?.isMode && state.select?.startsWith('m') ? Math.abs(chosen.speed) : null);
+/** The free end in words. */
+const endName = () => ENDS[state.forms[0]] ?? (links[0][PART.stands] ? 'upper end' : 'free end');
 
 const straight = () => {
     const offset = new Float64Array(links.length + 1).fill(state.radius);
@@ -145,6 +165,7 @@ function choose() {
 
 function select(what) {
     state.select = what;
+    angle = 0; // as in the cards
     chosen = null;
     choose();
     dirty = true;
@@ -162,7 +183,7 @@ function write(where, text) {
 function showCards(list, figures, describe, isChosen, key) {
     while (list.children.length > figures.length) list.lastChild.remove();
     while (list.children.length < figures.length) {
-        const lines = [element('b'), ...Array.from({length: 2}, () => element('small'))];
+        const lines = [element('b'), ...Array.from({length: 3}, () => element('small'))];
         const picture = svgElement(`0 0 ${CARD.join(' ')}`);
         const card = element('button', {type: 'button', className: 'card'}, picture, ...lines);
         const index = list.children.length + 1;
@@ -183,9 +204,10 @@ const inUnit = (speed, n = 4, unit = state.unit) => `${digits(speed * UNITS[unit
 function showShapes() {
     const list = shapes?.shapes ?? [];
     const said = $('shapes-said');
+    write($('shapes-title'), `Shapes that it keeps at ${speedOfMode() ? inUnit(state.speed) : 'this speed'}`);
     if (problem) write(said, 'No shapes: see the message above.');
     else if (!shapes) write(said, links.length > REQUEST.mostLinks ? 'Too many links for this page.' : 'Computing …');
-    else if (!list.length && shapes.complete) write(said, 'None: at this speed the chain hangs straight. Proved.');
+    else if (!list.length && shapes.complete) write(said, 'None: at this speed it hangs straight. Proved.');
     else
         write(
             said,
@@ -199,8 +221,9 @@ function showShapes() {
         $('shape-list'),
         list.slice(0, MOST_CARDS),
         (shape, i) => [
-            `Shape ${i + 1}${shape.halfWaves > 1 ? `: crosses the axis ${['', 'once', 'twice'][shape.halfWaves - 1] ?? `${shape.halfWaves - 1} times`}` : ''}`,
-            `end ${digits(Math.abs(shape.offset[0]), 3)} m from axis`,
+            `Shape ${i + 1}`,
+            `${digits(Math.abs(shape.offset[0]), 3)} m off axis`,
+            CROSSINGS[shape.halfWaves - 1] ?? `crosses the axis ${shape.halfWaves - 1} times`,
             VERDICT_WORDS[shape.verdict] ?? '',
         ],
         (shape) => shape === chosen,
@@ -214,17 +237,19 @@ function showModes() {
     const all = backward ? `${forward} forward and ${backward} backward modes` : plural(forward, 'mode');
     const sides = forward + backward ? all : 'No mode keeps turning';
     const growing =
-        growth > 0 ? ` Straight, the chain is unstable: a small push doubles every ${digits(Math.LN2 / growth, 2)} s.` : '';
+        growth > 0 ? ` Straight, it is unstable: a small push doubles every ${digits(Math.LN2 / growth, 2)} s.` : '';
     const others = other ? `; ${plural(other, 'motion')} ${other === 1 ? 'grows or dies' : 'grow or die'} away instead` : '';
-    $('modes-said').textContent = `${sides}${others}. A node is a point that stays on the axis.${growing}`;
+    const node = ` A node is a point that stays ${state.radius ? 'where it hangs' : 'on the axis'}.`;
+    $('modes-said').textContent = `${sides}${others}.${modes.modes.length ? node : ''}${growing}`;
     const second = state.unit === 'rpm' ? 'rad/s' : 'rpm';
     showCards(
         $('mode-list'),
         modes.modes.map(figureOf),
         (mode) => [
-            `Mode ${mode.number}${mode.speed < 0 ? ' backward' : ''}`,
+            mode.name,
             inUnit(Math.abs(mode.speed)),
-            `${inUnit(Math.abs(mode.speed), 4, second)}; ${plural(mode.nodes.length, 'node')}`,
+            inUnit(Math.abs(mode.speed), 4, second),
+            plural(mode.nodes.length, 'node'),
         ],
         (mode, i) => state.select === `m${i + 1}`,
         'm',
@@ -237,6 +262,7 @@ function markSpeeds() {
     const places = speeds.map((speed) => digits((1000 * speed) / top));
     if ($('mode-speeds').dataset.places === places.join()) return;
     $('mode-speeds').dataset.places = places.join();
+    $('marks').hidden = !places.length;
     $('mode-speeds').replaceChildren(...places.map((value) => element('option', {value})));
 }
 
@@ -255,8 +281,10 @@ function showDiagram() {
     else
         write(
             said,
-            `${diagram.branches.length === 1 ? '1 family' : `${diagram.branches.length} families`} of shapes up to ${inUnit(top)}${wordsOf(diagram)} ● stable, ○ not. Click to set the speed.`,
+            `${diagram.branches.length === 1 ? '1 family' : `${diagram.branches.length} families`} of shapes up to ${inUnit(top)}${wordsOf(diagram)}${links.length > MOST_JUDGED ? '' : ' ● stable, ○ not.'} Click or use the arrow keys.`,
         );
+    const [ariaValueNow, ariaValueMax] = [state.speed ?? 0, top].map((speed) => digits(speed * UNITS[state.unit]));
+    Object.assign($('diagram'), {ariaValueNow, ariaValueMax, ariaValueText: inUnit(state.speed ?? 0)});
     drawDiagram($('diagram'), {
         branches: diagram?.branches ?? [],
         shapes: shapes?.shapes ?? [],
@@ -265,6 +293,7 @@ function showDiagram() {
         top,
         reach: reachOfTip(),
         unit: state.unit,
+        end: endName(),
     });
 }
 
@@ -277,26 +306,31 @@ function wordsOf({complete, tried, tries}) {
 }
 
 /** What is known of a shape's stability, as a sentence. */
-function stabilityOf({verdict, growth}) {
+function stabilityOf({verdict, growth, links}) {
+    if (links.length > MOST_JUDGED) return `Its stability is not computed: it has more than ${MOST_JUDGED} links.`;
     if (verdict === 'unstable')
         return `Unstable: a small push doubles every ${digits(Math.LN2 / (growth * Math.abs(state.speed)), 2)} s.`;
     if (verdict === 'minimum') return 'Stable: after a small push it stays near this shape, with friction at the pins, too.';
-    if (verdict === 'spectrally stable') return 'Stable without friction; friction at the pins may upset it.';
+    if (verdict === 'spectrally stable') return 'Stable only without friction: friction at the pins may upset it.';
     return verdict === 'undecided' ? 'Whether it is stable could not be decided.' : '';
 }
 
 function captionOf(figure) {
-    if (figure.isMode)
-        return `Mode ${figure.number}: a small motion at ${inUnit(figure.speed)}, drawn enlarged. One turn takes ${digits((2 * Math.PI) / Math.abs(figure.speed), 3)} s.`;
+    if (figure.isMode) {
+        const speed = Math.abs(figure.speed);
+        const drawn = state.radius ? 'drawn enlarged, from where it hangs' : 'drawn enlarged';
+        return `${figure.name}: a small motion at ${inUnit(speed)}, ${drawn}. One turn takes ${digits((2 * Math.PI) / speed, 3)} s.`;
+    }
     if (figure.isStraight) {
         const first = modes?.modes.find((mode) => mode.speed > 0)?.speed;
         const wait = first > (state.speed ?? 0) ? ` It swings out above ${inUnit(first)}.` : '';
         return shapes?.complete
-            ? `The chain hangs straight at this speed.${wait}`
+            ? `It hangs straight at this speed.${wait}`
             : `${plural(figure.links.length, 'link')}, ${digits(totalLength(state), 3)} m.`;
     }
-    const circle = `The free end moves on a circle of radius ${digits(Math.abs(figure.offset[0]), 3)} m`;
-    const pull = `the pull on the support is ${digits(figure.tension * state.gravity, 3)} N`;
+    const circle = `The ${endName()} moves on a circle of radius ${digits(Math.abs(figure.offset[0]), 3)} m`;
+    const push = figure.links.at(-1)[PART.stands] ? 'push' : 'pull';
+    const pull = `the ${push} on the support is ${digits(Math.abs(figure.tension) * state.gravity, 3)} N`;
     return `${circle}; ${pull}. ${stabilityOf(figure)}`;
 }
 
@@ -318,7 +352,9 @@ function boundOf(figure) {
 function showStory() {
     const preset = presets.find((each) => each.name === state.name);
     $('story').hidden = !preset;
-    if (!preset) return;
+    const written = `${state.name} ${state.unit}`;
+    if (!preset || $('story').dataset.written === written) return; // a button that has the focus stays
+    $('story').dataset.written = written;
     const worded = (text) => text.replace(/\{([\d.]+)\}/g, (_, speed) => inUnit(Number(speed), 3));
     write($('says'), worded(preset.says));
     const tries = preset.tries.map((one) => {
@@ -334,6 +370,7 @@ function show() {
     dirty = false;
     $('problem').hidden = !problem;
     $('problem').textContent = problem;
+    speedSlider.show();
     showShapes();
     if (!modesShown) showModes();
     modesShown = true;
@@ -363,7 +400,8 @@ function frame(time) {
     requestAnimationFrame(frame);
     const speed = chosen?.isMode ? chosen.speed : (state.speed ?? 0),
         playback = playbackOf(speed);
-    if (playing && lastFrame !== null)
+    if (settle) angle = 0; // what is seen first lies in the plane of the picture
+    else if (playing && lastFrame !== null)
         angle = (angle + speed * playback * Math.min(0.1, (time - lastFrame) / 1000)) % (2 * Math.PI);
     lastFrame = time;
     if (dirty) {
@@ -379,7 +417,7 @@ function frame(time) {
         if (playing || stage.stale) stage.draw();
     }
     staged = chosen;
-    settle = false;
+    settle &&= chosen.isStraight && !shapes && !problem;
     mark('picture');
     if (modes && !dirty) mark('modes');
 }
@@ -434,8 +472,19 @@ async function copy(button) {
     }
     setTimeout(() => {
         button.textContent = words;
-        $('copy').open = false;
+        closeMenu();
     }, 1200);
+}
+
+function closeMenu() {
+    const menu = $('copy');
+    if (menu.contains(document.activeElement)) menu.firstElementChild.focus();
+    menu.open = false;
+}
+
+function play(on) {
+    playing = on;
+    $('play').textContent = on ? 'Pause' : 'Play';
 }
 
 function dragged(canvas, move) {
@@ -449,9 +498,10 @@ function dragged(canvas, move) {
 }
 
 function listen() {
+    const option = (value) => element('option', {value, textContent: presets.find(({name}) => name === value).title});
     $('preset').replaceChildren(
         element('option', {value: '', textContent: 'Your own chain', disabled: true}),
-        ...presets.map(({name, title}) => element('option', {value: name, textContent: title})),
+        ...Object.entries(GROUPS).map(([label, names]) => element('optgroup', {label}, ...names.split(' ').map(option))),
     );
     $('preset').onchange = () => open(presetState($('preset').value));
     $('add').onclick = () => {
@@ -460,20 +510,23 @@ function listen() {
         buildParts();
         changed();
     };
-    $('play').onclick = () => {
-        playing = !playing;
-        $('play').textContent = playing ? 'Pause' : 'Play';
-        $('play').ariaPressed = String(playing);
-    };
+    play(!matchMedia('(prefers-reduced-motion: reduce)').matches);
+    $('play').onclick = () => play(!playing);
     $('pace').oninput = () => {
         dirty = true;
     };
     $('reset').onclick = () => stage?.arrange(true);
     for (const button of document.querySelectorAll('[data-copy]')) button.onclick = () => copy(button);
+    $('copy').onkeydown = ({key}) => {
+        if (key === 'Escape') closeMenu();
+    };
+    for (const event of ['pointerdown', 'focusin'])
+        document.addEventListener(event, ({target}) => {
+            if (!$('copy').contains(target)) $('copy').open = false;
+        });
     $('docs').hidden = !location.pathname.includes('/live/');
     const setSpeed = (speed) => {
-        state.speed = Number((speed * UNITS[state.unit]).toPrecision(4)) / UNITS[state.unit];
-        speedSlider.show();
+        state.speed = rounded(speed, UNITS[state.unit]);
         changed({speed: true});
     };
     dragged($('diagram'), (event, first) => {
@@ -520,7 +573,7 @@ window.copied = (what) => ({python: toPython, scene: toScene})[what](state);
 /** For tests: what is known once nothing is being computed. */
 window.settled = async () => {
     while (!now || now.busy || later.busy) await new Promise((done) => setTimeout(done, 5));
-    return {state, modes, shapes, diagram, problem, top, fast: engine.fast};
+    return {state, modes, shapes, diagram, problem, top, angle, fast: engine.fast};
 };
 
 start();

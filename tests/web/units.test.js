@@ -15,7 +15,7 @@ const PRESETS = [
     },
 ];
 const NAMES =
-    'presetState, kindOf, setLength, setKind, linkCount, totalLength, partOfLinks, formOfLinks, toLink, fromLink, toPython, toScene, heightsOf';
+    'presetState, kindOf, setLength, setKind, linkCount, totalLength, partOfLinks, formOfLinks, toLink, fromLink, toPython, toScene, heightsOf, nodesOf';
 
 /** The functions of the scripts, which are plain ones, in a context of their own. */
 function page() {
@@ -25,7 +25,7 @@ function page() {
     return vm.runInContext(`${text}\n;({${NAMES}})`, context);
 }
 const {kindOf, setLength, setKind, linkCount, totalLength, partOfLinks, formOfLinks} = page();
-const {toLink, fromLink, toPython, toScene, presetState, heightsOf} = page();
+const {toLink, fromLink, toPython, toScene, presetState, heightsOf, nodesOf} = page();
 const plain = (value) => JSON.parse(JSON.stringify(value));
 
 /** The same numbers on every run. */
@@ -117,4 +117,12 @@ test('counts, lengths and heights', () => {
     // pins from the free end: 0.3 across 0.5 is 0.4 down, 0 across is 0.5 down, 1.2 across 2 is 1.6 up: that link stands
     const height = [...heightsOf(links, [1.5, 1.2, 1.2, 0])];
     [0.7, 1.1, 1.6, 0].forEach((want, k) => assert.ok(Math.abs(height[k] - want) < 1e-15, `${height}`));
+});
+
+test('nodes are on the axis, at their distance from the free end along the chain', () => {
+    const link = [1, 1, 0.5, 0, 0, 0, 0, 0];
+    const links = [link, link];
+    assert.deepEqual(plain(nodesOf({links, nodes: [0.25, 0.75], height: [-0.75, -0.5, 0]})), [[0, -0.625], [0, -0.25]]);
+    assert.deepEqual(plain(nodesOf({links, height: [-1, -0.5, 0]})), []); // a shape
+    assert.deepEqual(plain(nodesOf({links: [[1, 1, 0.5, 0, 0, 1, 0, 0]], nodes: [0.1], height: [0.5, 0]})), []);
 });

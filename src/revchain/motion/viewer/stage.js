@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A stage in an element of a page: figures, each above its own floor with its shadow, and a camera that can be turned.
 import {
-  Box3, DirectionalLight, HemisphereLight, InstancedMesh, LineSegments, Matrix4, MeshBasicMaterial, PerspectiveCamera,
-  PolarGridHelper, Scene, Spherical, Vector3, WebGLRenderer,
+  Box3, DirectionalLight, HemisphereLight, InstancedMesh, LineSegments, Matrix4, MeshBasicMaterial, MeshStandardMaterial,
+  PerspectiveCamera, PolarGridHelper, Scene, Spherical, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
@@ -10,6 +10,7 @@ const night = matchMedia("(prefers-color-scheme: dark)");
 const AT_NIGHT = { "#1a1a1a": "#d5dbe1", "#595959": "#9aa5b0", "#b3b3b3": "#5a6672" };  // greys hidden on a dark page
 const DOWN = new Matrix4().makeScale(1, 0, 1);  // to the plan
 const TILT = 0.24, FIELD = 11, ROOM = 1.15;  // of the first view: radians, degrees, over the width of a figure
+const ALONE = 1.05, AXIS = "#b3b3b3";  // room of a figure without neighbours; the grey of an axis that is a line, no mast
 const KEYS = {
   ArrowLeft: [0.1, 0, 1], ArrowRight: [-0.1, 0, 1], ArrowUp: [0, 0.1, 1], ArrowDown: [0, -0.1, 1],
   "+": [0, 0, 0.9], "=": [0, 0, 0.9], "-": [0, 0, 1 / 0.9],
@@ -46,6 +47,7 @@ export class Stage {
     this.camera = new PerspectiveCamera(FIELD);
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.shade = new MeshBasicMaterial();
+    this.line = new MeshStandardMaterial({ name: AXIS, roughness: 0.6, depthWrite: false });  // behind all that turns
     this.floors = [[0xaebac6, 0xcbd4dd], [0x4a5764, 0x35414c]].map((colours) => {  // light and dark; clones share them
       const { geometry, material } = new PolarGridHelper(1, 12, 4, 72, ...colours);
       return new LineSegments(geometry, material);
@@ -88,8 +90,23 @@ export class Stage {
     this.tall = extent.high - extent.low;
     this.gap = 0.04 * this.tall;
     this.span = Math.max(extent.radius, 0.12 * this.tall);
-    for (const { shadows } of this.sets) shadows.position.y = this.low - this.gap;
+    for (const { shadows } of this.sets) {
+      shadows.position.y = this.low - this.gap;
+      shadows.renderOrder = -2;
+    }
+    for (const { root } of figures) this.stand(root.children.find((part) => part.isMesh && !part.isInstancedMesh));
     this.paint();
+  }
+
+  /** Lengthen an axis to the floor. One that is a line is thin, and all parts of the figure are drawn over it. */
+  stand(axis) {
+    const top = axis.position.y + axis.scale.y / 2, foot = this.low - this.gap;
+    axis.position.y = (top + foot) / 2;
+    axis.scale.y = top - foot;
+    if (axis.material.name !== AXIS) return;
+    axis.scale.x = axis.scale.z *= 0.7;
+    axis.material = this.line;
+    axis.renderOrder = -1;
   }
 
   /** Set the colours of a light or a dark page. */
@@ -104,6 +121,7 @@ export class Stage {
       figure.floor = this.floors[Number(dark)].clone();
       figure.floor.scale.setScalar(1.12 * this.span);
       figure.floor.position.y = this.low - this.gap - 1e-3 * this.tall;
+      figure.floor.renderOrder = -2;
       figure.root.add(figure.floor);
     }
     this.stale = true;
@@ -115,7 +133,7 @@ export class Stage {
     const { clientWidth: wide, clientHeight: high } = this.element;
     if (!wide || !high || !figures.length) return;  // in a frame that is folded up
     const [least, words] = this.words();  // width and height of a caption, pixels
-    const across = 2 * ROOM * span, up = (tall + gap) * Math.cos(TILT) + 2.6 * span * Math.sin(TILT);
+    const across = 2 * (figures.length > 1 ? ROOM : ALONE) * span, up = (tall + gap) * Math.cos(TILT) + 2.6 * span * Math.sin(TILT);
     let best = { scale: 0 };
     for (let columns = 1; columns <= figures.length; columns++) {
       const rows = Math.ceil(figures.length / columns);
