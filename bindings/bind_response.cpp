@@ -64,13 +64,6 @@ py::tuple swing(const System& system, const Array& offsets, const Array& velocit
                           to_numpy(found.truncation_error), to_numpy(found.error_bound));
 }
 
-template <class Numbers>
-py::array complex_numbers(const Numbers& values, std::vector<py::ssize_t> shape) {
-    py::array_t<std::complex<double>> array(std::move(shape));
-    std::copy_n(values.data(), values.size(), array.mutable_data());
-    return frozen(std::move(array));
-}
-
 using ComplexArray = py::array_t<std::complex<double>, py::array::c_style | py::array::forcecast>;
 
 py::tuple whirl_swing(const Rig& rig, const ComplexArray& offsets, const ComplexArray& velocities, const Array& time,

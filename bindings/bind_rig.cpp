@@ -31,14 +31,18 @@ Rig make_rig(const Chain<double>& chain, double stiffness, double carriage_weigh
              const std::optional<Array>& wheel_radius_of_gyration, const std::optional<Array>& spin,
              const std::optional<Array>& driven, const std::optional<Array>& displaced_weight,
              const std::optional<Array>& displaced_centroid, const std::optional<Array>& displaced_radius_of_gyration,
-             const std::optional<Array>& added_weight, bool turning_fluid, double force, double gravity) {
+             const std::optional<Array>& added_weight, bool turning_fluid, double force, double gravity,
+             double support_damping, const std::optional<Array>& pin_stiffness,
+             const std::optional<Array>& pin_damping) {
     for (const auto* array : {&momentum, &axial_moment, &wheel_weight, &wheel_radius_of_gyration, &spin, &driven,
-                              &displaced_weight, &displaced_centroid, &displaced_radius_of_gyration, &added_weight})
+                              &displaced_weight, &displaced_centroid, &displaced_radius_of_gyration, &added_weight,
+                              &pin_stiffness, &pin_damping})
         if (*array && (*array)->ndim() > 0 && (*array)->size() != chain.size())
             revchain::detail::throw_invalid("Rig", "arrays must have one number for each link", (*array)->size());
     if (standing && standing->size() != chain.size())
         revchain::detail::throw_invalid("Rig", "standing must have one entry for each link", standing->size());
     revchain::Rigging with{.support = support({stiffness, force, carriage_weight, support_radius})};
+    with.support.damping = quotient(support_damping, force);
     with.fluid = turning_fluid ? revchain::Fluid::turning : revchain::Fluid::still;
     const bool floats = displaced_weight || displaced_centroid || displaced_radius_of_gyration || added_weight;
     for (Index m = 0; m < chain.size(); ++m) {
@@ -48,6 +52,8 @@ Rig make_rig(const Chain<double>& chain, double stiffness, double carriage_weigh
         if (wheel_weight)
             with.flywheels.push_back(wheel(at(wheel_weight, m, 0), at(wheel_radius_of_gyration, m, 0), at(spin, m, 0),
                                            at(driven, m, 0) != 0, gravity));
+        if (pin_stiffness || pin_damping)
+            with.pins.push_back({quotient(at(pin_stiffness, m, 0), force), quotient(at(pin_damping, m, 0), force)});
         if (!floats) continue;
         const revchain::Link<double> link = chain.link(m);
         Displaced fluid = displaced_by(link, at(displaced_weight, m, 0), at(added_weight, m, 0));
@@ -90,7 +96,8 @@ void bind_rig(py::module_& module) {
              "wheel_weight"_a = py::none(), "wheel_radius_of_gyration"_a = py::none(), "spin"_a = py::none(),
              "driven"_a = py::none(), "displaced_weight"_a = py::none(), "displaced_centroid"_a = py::none(),
              "displaced_radius_of_gyration"_a = py::none(), "added_weight"_a = py::none(), "turning_fluid"_a = false,
-             "force"_a = 1.0, "gravity"_a = revchain::conical_pendulum::standard_gravity)
+             "force"_a = 1.0, "gravity"_a = revchain::conical_pendulum::standard_gravity, "support_damping"_a = 0.0,
+             "pin_stiffness"_a = py::none(), "pin_damping"_a = py::none())
         .def_property_readonly("momentum", &of_wheels<&Flywheel::momentum>)
         .def_property_readonly("axial_moment", &of_wheels<&Flywheel::axial_moment>)
         .def(

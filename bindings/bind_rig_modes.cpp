@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "revchain/damped_modes.hpp"
 #include "revchain/rig_modes.hpp"
 
 namespace {
@@ -144,6 +145,7 @@ void bind_rig_modes(py::module_& module) {
             "available",
             [](const Found& f) { return py::make_tuple(f.modes.forward.available, f.modes.backward.available); })
         .def_property_readonly("has_momentum", [](const Found& f) { return f.modes.has_momentum; })
+        .def_property_readonly("rigid", [](const Found& f) { return f.modes.rigid; })
         .def_property_readonly("other_available", [](const Found& f) { return f.modes.other_available; })
         .def_property_readonly("slack_link",
                                [](const Found& f) {
@@ -177,6 +179,19 @@ void bind_rig_modes(py::module_& module) {
         },
         "rig"_a, "first"_a, "count"_a, "conical_height"_a, "angular_speed"_a, "rtol"_a, "certify"_a, "gravity"_a,
         "progress"_a = py::none(), "threads"_a = 1);
+    module.def(
+        "damped_modes",
+        [](const Rig& rig, Index first, std::optional<Index> count, double gravity, MaybeProgress progress) {
+            const revchain::DampedModesOptions options{
+                .first = first, .count = count, .gravity = gravity, .progress = progress.value_or(nullptr)};
+            const auto found = without_lock([&] { return revchain::damped_modes(rig, options); });
+            return py::make_tuple(complex_numbers(found.exponent, {found.size()}), to_numpy(found.error_bound),
+                                  to_numpy(found.error_estimate),
+                                  complex_numbers(found.shapes, {found.size(), rig.size() + 1}), found.available,
+                                  found.rigid, found.complete,
+                                  std::string(to_string(found.status)));
+        },
+        "rig"_a, "first"_a, "count"_a, "gravity"_a, "progress"_a = py::none());
     module.def(
         "other_rig_modes",
         [](const Rig& rig, double gravity, std::optional<const Found*> given) {

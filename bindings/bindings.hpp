@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <complex>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -43,6 +44,13 @@ inline py::array to_numpy(const revchain::Vector<double>& values) {
 
 inline py::array to_numpy(const revchain::Table<double>& values) {
     return frozen(py::array_t<double>({values.rows(), values.cols()}, values.data()));
+}
+
+template <class Numbers>
+py::array complex_numbers(const Numbers& values, std::vector<py::ssize_t> shape) {
+    py::array_t<std::complex<double>> array(std::move(shape));
+    std::copy_n(values.data(), values.size(), array.mutable_data());
+    return frozen(std::move(array));
 }
 
 /// The numbers where they are, not copied: the array keeps their owner.

@@ -30,12 +30,14 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 /// The support of the uppermost pin. The default is a firm point on the axis.
 struct Support {
-    /// sideways, force over length; infinite if firm
+    /// sideways, force over length; infinite if firm, 0 for a trolley that rolls freely
     Wide<double> stiffness = std::numeric_limits<double>::infinity();
     double carriage_weight = 0;  ///< weight that moves sideways with a pin that yields
     double radius = 0;           ///< distance of the support's rest position from the axis
+    Wide<double> damping{0.0};   ///< of a dashpot to the ground, force times time over length
 
     bool is_firm() const noexcept { return std::isinf(stiffness.high); }
+    bool is_free() const noexcept { return stiffness == Wide<double>(0.0); }
     friend bool operator==(const Support&, const Support&) = default;
 };
 
@@ -48,6 +50,22 @@ struct Support {
     detail::require_not_negative("horizontal_spring", "carriage weight", carriage_weight);
     return {stiffness, carriage_weight, 0};
 }
+
+/// A trolley of this weight that rolls sideways without a spring (Taylor, Classical Mechanics,
+/// 2005, problem 11.28). Throws InvalidArgument unless the weight is >= 0 and finite.
+[[nodiscard]] inline Support free_trolley(double carriage_weight) {
+    detail::require_not_negative("free_trolley", "carriage weight", carriage_weight);
+    return {0.0, carriage_weight, 0};
+}
+
+/// A torsion spring and a dashpot between the two links at a pin, or at the uppermost pin between
+/// link and vertical. The spring is relaxed in the straight chain at rest.
+struct Pin {
+    Wide<double> stiffness{0.0};  ///< torque over angle, >= 0
+    Wide<double> damping{0.0};    ///< torque times time over angle, >= 0
+
+    friend bool operator==(const Pin&, const Pin&) = default;
+};
 
 /// A pin carried round the axis: a chair on the arm of a carousel, a hand, Greenhill (1908) §1 (9).
 /// Throws InvalidArgument unless radius >= 0 and finite.
@@ -105,6 +123,7 @@ struct Rigging {
     std::vector<Flywheel> flywheels{};
     Fluid fluid = Fluid::still;
     std::vector<Displaced> displaced{};
+    std::vector<Pin> pins{};  ///< the upper pin of each link
 
     friend bool operator==(const Rigging&, const Rigging&) = default;
 };
@@ -112,8 +131,9 @@ struct Rigging {
 /// A chain and its rigging. For a chain without rigging, `Chain` costs less.
 ///
 /// Throws InvalidArgument, naming the link, for lists that are neither empty nor as long as the
-/// chain, numbers that are not finite, a support without stiffness, a carriage at a firm support,
-/// and a negative carriage weight, radius, axial moment, weight displaced or added. Cost O(N) once.
+/// chain, numbers that are not finite, a carriage or a dashpot at a firm support, a radius of a
+/// free trolley, and a negative stiffness, damping, carriage weight, radius, axial moment, weight
+/// displaced or added. Cost O(N) once.
 class Rig {
    public:
     Rig(Chain<double> chain, Rigging with) : chain_(std::move(chain)), with_(std::move(with)) {
@@ -140,6 +160,21 @@ class Rig {
             with_.displaced.empty() ? Displaced{} : with_.displaced[static_cast<std::size_t>(m)];
         return given == Displaced{} ? displaced_by(chain_.link(m), 0) : given;
     }
+    /// The spring and the dashpot at the upper pin of link m.
+    Pin pin(Index m) const {
+        return with_.pins.empty() ? Pin{} : with_.pins[static_cast<std::size_t>(m)];
+    }
+    /// Whether any pin has a spring.
+    bool has_pin_springs() const {
+        return std::any_of(with_.pins.begin(), with_.pins.end(),
+                           [](const Pin& pin) { return pin.stiffness != Wide<double>(0.0); });
+    }
+    /// Whether any pin or the support has a dashpot.
+    bool is_damped() const {
+        return with_.support.damping != Wide<double>(0.0) ||
+               std::any_of(with_.pins.begin(), with_.pins.end(),
+                           [](const Pin& pin) { return pin.damping != Wide<double>(0.0); });
+    }
     /// Whether the fluid that link m displaces, if any, is distributed as the link's own weight.
     bool fills_its_link(Index m) const {
         const Displaced fluid = displaced(m);
@@ -153,9 +188,10 @@ class Rig {
             with_.flywheels.begin(), with_.flywheels.end(),
             [](const Flywheel& wheel) { return wheel.momentum != Wide<double>(0.0); });
     }
-    /// Whether small motions are those of the chain alone: a firm support, no wheel, no fluid, and
-    /// no link that stands. The support may be carried round.
+    /// Whether small motions are those of the chain alone: a firm support, no wheel, no fluid, no
+    /// spring or dashpot, and no link that stands. The support may be carried round.
     bool is_plain_chain() const {
+        if (has_pin_springs() || is_damped()) return false;
         for (Index m = 0; m < size(); ++m)
             if (stands(m) || flywheel(m) != Flywheel{} || displaced(m).weight != 0 ||
                 displaced(m).added_weight != 0)

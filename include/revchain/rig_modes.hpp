@@ -97,6 +97,7 @@ struct RigModes {
     bool has_momentum = false;  ///< whether a flywheel has momentum of its own
     WhirlModes forward;         ///< n > 0; without momentum, all modes
     WhirlModes backward;        ///< n < 0; empty without momentum
+    Index rigid = 0;  ///< 1 if a free trolley can move as a whole, at speed 0; no mode of the lists
     Index other_available = 0;  ///< number of solutions that are not steady motions, listed or not
     std::vector<OtherMode> other;  ///< filled if `RigModesOptions::other` or `discs`
     std::vector<SlackLink> slack;  ///< slowest first, up to the fastest mode in that direction

@@ -7,7 +7,7 @@ whirl speed of small amplitude is the natural angular frequency of its swing in 
 Revolving Chain" (1908).
 
 Systems
-    Chain, Rig (with Support, Flywheel, Displaced), Cord, Held
+    Chain, Rig (with Support, Pin, Flywheel, Displaced), Cord, Held
 Questions
     modes, count_modes, steady_shapes, steady_shape, branches, branch, response, swing, tune, fit, explain;
     conical_heights for many chains at once
@@ -81,6 +81,7 @@ from .systems.cord import Cord as Cord
 from .systems.held import Held as Held
 from .systems.rig import Displaced as Displaced
 from .systems.rig import Flywheel as Flywheel
+from .systems.rig import Pin as Pin
 from .systems.rig import Rig as Rig
 from .systems.rig import Support as Support
 

@@ -157,13 +157,14 @@ struct CountedSense {
 /// Returns the heights above 0 of a rig without momentum; K > 0 or M >= 0. If K > 0, heights above
 /// h are negative eigenvalues of hK - M. If M >= 0, negative eigenvalues of K - M/h are those
 /// heights and the negative eigenvalues of K. Just above h = 0, hK - M is negative on motions with
-/// inertia, and has the signs of K on the others.
+/// inertia, and has the signs of K on the others. A free trolley moves as a whole: K is 0 there, and
+/// Q is negative at every h.
 REVCHAIN_LAZY
 CountedSense counted_heights(const RigPencil& rig) {
-    const Index before = rig.stiffness_positive ? 0 : rig.not_positive;
+    const Index before = (rig.stiffness_positive ? 0 : rig.not_positive) + rig.rigid;
     const MasslessForm& form = rig.massless;
     std::optional<Index> count;
-    if (rig.mass_not_negative && form.certain && form.zero == 0)
+    if (rig.mass_not_negative && form.certain && form.zero == 0 && !rig.pencil.has_joints())
         count = rig.pencil.size() - form.size + form.negative - before;
     return {CountedRoots(rig.pencil, rig.pace, -before, 1, 1), count};
 }

@@ -43,6 +43,7 @@ DrivenChain driven_chain(const Chain<double>& chain) {
 
 REVCHAIN_LAZY
 DrivenChain driven_chain(const Rig& rig) {
+    require_no_pins("response", "the response", rig);
     DrivenChain result{{}, rig.chain().units(), rig.has_momentum()};
     auto& elements = result.pencil.elements;
     Index m = 0;

@@ -33,7 +33,7 @@ std::optional<RigElement> support_element(const Support& support, const ChainUni
     using S = Wide<double>;
     if (support.is_firm()) return std::nullopt;
     const S stiffness = ldexp(support.stiffness, units.length_exponent - units.weight_exponent);
-    if (!(isfinite(stiffness) && stiffness.high > 0))
+    if (!(isfinite(stiffness) && stiffness.high > 0) && !support.is_free())
         detail::throw_invalid("Rig", "the support's stiffness is too far from weight over length",
                               support.stiffness.high);
     const S carriage(std::ldexp(support.carriage_weight, -units.weight_exponent));

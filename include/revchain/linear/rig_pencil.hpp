@@ -5,6 +5,7 @@
 #include "revchain/linear/rig_elements.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/interval.hpp"
+#include "revchain/pencil/jointed.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
 
@@ -34,6 +35,7 @@ struct RigPencil {
     bool stiffness_certain;   ///< the sign of each stiffness is certain
     Index not_positive;       ///< elements whose stiffness at rest is not positive
     Index neutral = 0;        ///< of these, elements whose stiffness is certainly 0
+    Index rigid = 0;          ///< 1 for a free trolley: its motion as a whole is not in `neutral`
     bool mass_not_negative;   ///< every mass is certainly positive or 0: M >= 0
     MasslessForm massless;    ///< K, or with momentum G, on the motions without inertia
     Index idle = 0;           ///< omitted lowest pins: of omitted links, or a firm end
@@ -119,6 +121,44 @@ MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& pencil,
     return form;
 }
 
+/// Returns the joint at the upper pin of link m. `pace` makes a dashpot a stiffness.
+REVCHAIN_LAZY
+pencil::Joint<Wide<double>> joint(const Rig& rig, Index m, const ChainUnits& units,
+                                  const Wide<double>& pace) {
+    using S = Wide<double>;
+    const Pin pin = rig.pin(m);
+    const int unit = units.weight_exponent + units.length_exponent;
+    const S lever(std::ldexp(rig.chain().length()[m], -units.length_exponent));
+    const S stiffness = ldexp(pin.stiffness, -unit), damping = ldexp(pin.damping, -unit);
+    for (const S& each : {stiffness, damping})
+        if (each.high != 0 && !(each.high > 0x1p-800 && each.high < 0x1p800))
+            throw_invalid("Rig", "a pin's stiffness or damping is too far from weight times length",
+                          pin.stiffness.high);
+    return {rig.stands(m) ? -lever : lever, stiffness, damping * pace};
+}
+
+/// Returns the joint of a support that yields: its dashpot.
+REVCHAIN_LAZY
+pencil::Joint<Wide<double>> support_joint(const Support& support, const ChainUnits& units,
+                                          const Wide<double>& pace) {
+    using S = Wide<double>;
+    const S damping = ldexp(support.damping, units.length_exponent - units.weight_exponent);
+    return {S(0.0), S(0.0), damping * pace};
+}
+
+/// Sets the numbers of negative and zero eigenvalues of K, which springs at pins change.
+REVCHAIN_LAZY
+void count_signs_of_stiffness(RigPencil& rig) {
+    const RigPencil::S one(1.0), none(0.0);
+    pencil::SignedPencil<RigPencil::S> links = rig.pencil;
+    if (rig.rigid == 1) links.elements.pop_back(), links.joints.pop_back();
+    const auto count =
+        pencil::certified_count(links, pencil::JointFactors<RigPencil::S>{one, none, none, none});
+    rig.stiffness_certain = count.proved;
+    rig.stiffness_positive = count.proved && count.above == 0;
+    rig.not_positive = count.above, rig.neutral = 0;
+}
+
 /// Returns true if a mass with these errors is certainly positive or 0.
 REVCHAIN_LAZY
 bool is_not_negative(const RigElement& e) {
@@ -170,12 +210,14 @@ std::vector<RigElement> rig_elements(const Rig& rig) {
 }
 
 /// Returns the pencil of a rig, or with `lower_end` of one whose lower end is held, too: then no
-/// link stands, spins or is in a fluid. Every number has an error bound. Cost O(N). Throws
+/// link stands, spins or is in a fluid. With springs or dashpots at pins, and `with_joints`, the
+/// pencil has joints. Every number has an error bound. Cost O(N). Throws
 /// InvalidArgument as rig_links does, unless gravity > 0, and for stiffness or tension out of
 /// range.
 REVCHAIN_LAZY
 RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::standard_gravity,
-                     const std::optional<detail::LowerEnd>& lower_end = {}) {
+                     const std::optional<detail::LowerEnd>& lower_end = {},
+                     bool with_joints = false) {
     using S = RigPencil::S;
     using detail::HeldPins;
     detail::require_positive("rig_pencil", "gravity", gravity);
@@ -187,6 +229,7 @@ RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::standard
     result.stiffness_positive = result.stiffness_certain = result.mass_not_negative = true;
     result.not_positive = 0;
     std::vector<HeldPins> held;
+    const bool jointed = with_joints || rig.has_pin_springs() || rig.is_damped();
     const auto add = [&](const RigElement& e, HeldPins pins, bool mass_not_negative) {
         result.pencil.elements.push_back(e);
         held.push_back(pins);
@@ -206,17 +249,30 @@ RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::standard
     for (Index m = 0; m < rig.size(); ++m) {
         RigElement e = links[static_cast<std::size_t>(m)];
         if (lower_end) e = lower_end->pulled(e, rig.chain().length()[m], result.units);
-        if (result.pencil.elements.empty() && detail::is_nothing(e)) {
+        if (result.pencil.elements.empty() && detail::is_nothing(e) && rig.pin(m) == Pin{}) {
             ++result.idle;
             continue;
         }
         e.spin = e.spin * result.pace, e.error.spin *= result.pace.high;
+        if (jointed)
+            result.pencil.joints.push_back(detail::joint(rig, m, result.units, result.pace));
         const bool dry = rig.fluid() == Fluid::still || rig.displaced(m).weight == 0;
         const bool plain = rig.flywheel(m).axial_moment.high == 0 && dry;
         add(e, detail::held_by(rig, m), plain || detail::is_not_negative(e));
     }
-    if (const auto spring = support_element(rig.support(), result.units))
-        add(*spring, rig.support().carriage_weight > 0 ? HeldPins::lower : HeldPins::nothing, true);
+    const Support& support = rig.support();
+    if (const auto spring = support_element(support, result.units)) {
+        const bool positive = result.stiffness_positive;
+        add(*spring, support.carriage_weight > 0 ? HeldPins::lower : HeldPins::nothing, true);
+        if (support.is_free()) {
+            result.rigid = 1, --result.neutral, --result.not_positive;
+            result.stiffness_positive = positive;
+        }
+        if (jointed)
+            result.pencil.joints.push_back(
+                detail::support_joint(support, result.units, result.pace));
+    }
+    if (jointed) detail::count_signs_of_stiffness(result);
     result.massless = detail::massless_form(result.pencil, held, !lower_end);
     if (lower_end) {
         result.pencil.ground = result.pencil.elements.front();

@@ -69,7 +69,7 @@ std::optional<CountedSense> counted_negative_heights(const RigPencil& rig) {
     const MasslessForm& form = rig.massless;
     const Index falling = rig.not_positive - rig.neutral;
     std::optional<Index> count;
-    if (form.certain && form.zero == 0) count = falling - form.negative;
+    if (form.certain && form.zero == 0 && !rig.pencil.has_joints()) count = falling - form.negative;
     return CountedSense(CountedRoots(rig.pencil, rig.pace, falling - size, 1, -1), count);
 }
 
@@ -81,8 +81,10 @@ CountedSense counted_speeds(const RigPencil& rig, bool forward) {
     const MasslessForm& form = rig.massless;
     const Index negative = forward ? form.negative : form.size - form.zero - form.negative;
     std::optional<Index> count;
-    if (form.certain) count = rig.pencil.size() - form.size + negative;
-    return {CountedRoots(forward ? rig.pencil : rig.pencil.reversed(), rig.pace, 0, 1, 1), count};
+    if (form.certain && !rig.pencil.has_joints())
+        count = rig.pencil.size() - form.size + negative - rig.rigid;
+    return {CountedRoots(forward ? rig.pencil : rig.pencil.reversed(), rig.pace, -rig.rigid, 1, 1),
+            count};
 }
 
 inline constexpr Index most_isolated = 20'000;
@@ -103,6 +105,12 @@ class RigRoots {
             if (quadratic) senses_.push_back(counted_speeds(rig_, false));
             return;
         }
+        if (rig_.pencil.has_joints())
+            throw_invalid(place,
+                          "with springs at pins every speed must be real: standing links with "
+                          "momentum, driven wheels and floats in a fluid that turns with them are "
+                          "solved without such springs; links",
+                          rig.size());
         if (rig_.pencil.size() > most_isolated)
             throw_invalid(place,
                           "a rig whose speeds may be complex (standing links with momentum, driven "

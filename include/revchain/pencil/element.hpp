@@ -141,6 +141,15 @@ template <class S>
         return abs(pivot) < least ? size * (S(epsilon<S>()) * S(epsilon<S>())) + least : pivot;
 }
 
+/// The joint at the upper pin of an element, between its rotation and that of the element above,
+/// or the vertical. Rotations are differences of offsets over levers.
+template <Real S>
+struct Joint {
+    S lever{};      ///< length of the link, negative if it stands; 0: a support that yields
+    S stiffness{};  ///< of the torsion spring
+    S damping{};    ///< of the dashpot, or of a support's dashpot, in the unit of a stiffness
+};
+
 /// A family of matrices Q(x), stored as elements, lowest first. It is never assembled: sums of
 /// neighbouring stiffnesses lose the slowest modes. The last element's upper pin is held. Without
 /// spins Q is lambda K - M of a hanging chain, with positive eigenvalues. With spins modes of one
@@ -153,6 +162,9 @@ struct ElementPencil {
     /// With own errors: the element that ties the lowest pin to the ground, if that pin is held.
     std::optional<Element<S, Spins, OwnErrors>> ground{};
     bool quadratic = Spins && !OwnErrors;  ///< L = x^2 k + x s, not L = x k
+    /// With own errors: springs and dashpots at all pins (pencil/jointed.hpp), or empty.
+    [[no_unique_address]] std::conditional_t<OwnErrors, std::vector<Joint<S>>, detail::Nothing<2>>
+        joints{};
     /// Not empty if one unit does not suffice: element m is in units of 2^units[m], ascending to 0.
     std::vector<int> units;
     /// Without own errors: the relative error of every number (for the cross mass relative to |X| +
@@ -175,6 +187,12 @@ struct ElementPencil {
     /// Returns the exponent of the factor from the unit of element m - 1 to that of element m.
     int step_down(std::size_t m) const {
         return units.empty() || m == 0 ? 0 : units[m - 1] - units[m];
+    }
+    bool has_joints() const {
+        if constexpr (OwnErrors)
+            return !joints.empty();
+        else
+            return false;
     }
     /// Returns the pencil with every spin reversed: its roots x have the other sign.
     ElementPencil reversed() const {
@@ -205,6 +223,11 @@ ElementPencil<T, Spins, OwnErrors> rounded(const ElementPencil<S, Spins, OwnErro
         pencil.elements.reserve(wide.elements.size());
         for (const auto& e : wide.elements) pencil.elements.push_back(narrow(e));
         if (wide.ground) pencil.ground = narrow(*wide.ground);
+        if constexpr (OwnErrors)
+            for (const Joint<S>& joint : wide.joints)
+                pencil.joints.push_back({static_cast<T>(joint.lever),
+                                         static_cast<T>(joint.stiffness),
+                                         static_cast<T>(joint.damping)});
         pencil.quadratic = wide.quadratic;
         pencil.units = wide.units;
         pencil.entry_error = static_cast<T>(wide.entry_error) + epsilon<T>();

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "revchain/pencil/element.hpp"
+#include "revchain/pencil/jointed.hpp"
 #include "revchain/simd/pack.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
@@ -98,6 +99,12 @@ std::array<Index, L> count_above(const ElementPencil<T, Spins, OwnErrors>& penci
                                  const std::array<T, L>& shifts) {
     using Pencil = ElementPencil<T, Spins, OwnErrors>;
     std::array<Index, L> above;
+    if constexpr (OwnErrors)
+        if (pencil.has_joints()) {
+            std::transform(shifts.begin(), shifts.end(), above.begin(),
+                           [&](const T& x) { return jointed_count(pencil, x); });
+            return above;
+        }
     const auto counted = [&](const auto& state) {
         for (std::size_t i = 0; i < L; ++i) above[i] = state[i].negative;
         return above;
@@ -120,12 +127,6 @@ std::array<Index, L> count_above(const ElementPencil<T, Spins, OwnErrors>& penci
             detail::carried_up(detail::PlainCarry<Pencil, T, false>{pencil}, pencil, shifts));
     }
 }
-
-/// A count. If `proved`, exactly `above` eigenvalues of the exact pencil exceed the exact shift.
-struct CertifiedCount {
-    Index above = 0;
-    bool proved = false;
-};
 
 namespace detail {
 
@@ -329,9 +330,16 @@ class BoundedCarry<SignedPencil<S>> {
 template <Real S, std::size_t L, bool Spins, bool OwnErrors>
 std::array<CertifiedCount, L> certified_count(const ElementPencil<S, Spins, OwnErrors>& pencil,
                                               const std::array<S, L>& shifts) {
+    std::array<CertifiedCount, L> result;
+    if constexpr (OwnErrors)
+        if (pencil.has_joints()) {
+            std::transform(shifts.begin(), shifts.end(), result.begin(), [&](const S& x) {
+                return certified_count(pencil, steady_factors(pencil, x));
+            });
+            return result;
+        }
     const detail::BoundedCarry<ElementPencil<S, Spins, OwnErrors>> carry(pencil);
     const auto state = detail::carried_up(carry, pencil, shifts);
-    std::array<CertifiedCount, L> result;
     for (std::size_t i = 0; i < L; ++i) result[i] = state[i].count;
     return result;
 }

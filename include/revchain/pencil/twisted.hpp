@@ -210,6 +210,23 @@ struct UnroundedEigenvector {
     std::vector<Crossing<Narrow<S>>> crossings;
 };
 
+/// Returns offsets with their largest size and the elements that cross the axis.
+template <Real S>
+UnroundedEigenvector<S> with_crossings(std::vector<S> offset) {
+    using T = Narrow<S>;
+    using std::abs;
+    UnroundedEigenvector<S> result{std::move(offset), S(T(0)), {}};
+    const auto& y = result.offset;
+    for (const S& each : y)
+        if (abs(each) > result.largest) result.largest = abs(each);
+    for (std::size_t m = 0; m + 1 < y.size(); ++m)
+        if (static_cast<T>(y[m]) * static_cast<T>(y[m + 1]) < T(0))
+            result.crossings.push_back(
+                {static_cast<Index>(m), static_cast<T>(y[m] / (y[m] - y[m + 1]))});
+    if (y.front() < S(T(0))) result.largest = -result.largest;  // the free end must be positive
+    return result;
+}
+
 /// Returns the eigenvector of the pencil at an eigenvalue, by `detail::twisted`. (The plain upward
 /// recurrence loses 3e-11 near the support at N = 1e5.) Source: Dhillon, Parlett (2004),
 /// doi:10.1016/j.laa.2003.12.028, applied to elements. Cost: two passes; scratch of three numbers
@@ -224,6 +241,8 @@ UnroundedEigenvector<S> unrounded_eigenvector(const ElementPencil<S, Spins, OwnE
                                               const S& root) {
     using std::abs;
     using T = Narrow<S>;
+    if constexpr (OwnErrors)
+        if (pencil.has_joints()) return with_crossings(jointed_vector(pencil, root));
     const auto& elements = pencil.elements;
     const Factors<S> x = pencil.factors(root);
     const auto rise = [&](std::size_t m, S& below) {
@@ -316,6 +335,12 @@ S rayleigh_quotient(const ElementPencil<S, Spins, OwnErrors>& pencil, const Offs
     if (pencil.ground) add(*pencil.ground, zero, offsets(0, 0));
     for (std::size_t m = 0; m < pencil.elements.size(); ++m)
         add(pencil.elements[m], offsets(m, m), offsets(m, m + 1));
+    if constexpr (OwnErrors)
+        if (pencil.has_joints()) {
+            std::vector<S> all;
+            for (std::size_t m = 0; m <= pencil.elements.size(); ++m) all.push_back(offsets(0, m));
+            stiffness = stiffness + spring_form(pencil, all);
+        }
     if (!pencil.quadratic) return mass / stiffness;
     S x = near;
     for (int step = 0; step < 3; ++step) {
@@ -338,6 +363,12 @@ T relative_residual(const ElementPencil<S, Spins, OwnErrors>& pencil, const X& r
     const auto offsets = detail::in_one_unit(pencil, offset, 1);
     const Factors<S> x =
         pencil.factors(S(static_cast<std::conditional_t<std::is_same_v<X, S>, S, M>>(root)));
+    if constexpr (OwnErrors)
+        if (pencil.has_joints()) {
+            std::vector<S> all;
+            for (std::size_t m = 0; m <= pencil.elements.size(); ++m) all.push_back(offsets(0, m));
+            return static_cast<T>(jointed_residual(pencil, x, all));
+        }
     M largest(0), worst(0), size(0);
     S force(M(0));  // the force of the link below
     const auto pass = [&](const auto& e, const S& lower, const S& upper, bool is_ground) {

@@ -117,7 +117,8 @@ bool modes_of_sense_by_counts(WhirlModes& modes, const Rig& rig, const RigRoots&
         store(*found_roots, std::make_shared<const Elements>(*std::move(elements)));
         return true;
     };
-    if (pencil.stiffness_positive && pencil.mass_not_negative)
+    if (pencil.stiffness_positive && pencil.mass_not_negative && pencil.rigid == 0 &&
+        !pencil.pencil.has_joints())
         if (roots.pencil().quadratic ? found_in_lanes(std::true_type())
                                      : found_in_lanes(std::false_type()))
             return proved;
@@ -125,6 +126,14 @@ bool modes_of_sense_by_counts(WhirlModes& modes, const Rig& rig, const RigRoots&
                         [&](Index done) { report(0.4, done, 0.6); }),
           std::shared_ptr<const pencil::ElementPencil<RigWord>>());
     return proved;
+}
+
+/// Throws InvalidArgument for a rig with dashpots, whose motions are those of `damped_modes`.
+REVCHAIN_LAZY
+void require_no_dashpots(std::string_view place, const Rig& rig) {
+    if (rig.is_damped())
+        throw_invalid(place, "a rig with dashpots has damped modes: damped_modes; links",
+                      rig.size());
 }
 
 /// Returns the modes of a rig that is a plain chain.
@@ -237,7 +246,7 @@ RigModes modes_by_discs(const Rig& rig, const RigRoots& roots, const RigModesOpt
             const double unit = std::ldexp(1.0, pencil.units.length_exponent);
             // In double words: std::complex divides by less accurate rules in some libraries.
             const std::complex<double> height(root.x * root.x);
-            const std::complex<double> speed(pencil::ComplexWord(pencil.pace) / root.x);
+            const std::complex<double> speed(ComplexWord(pencil.pace) / root.x);
             result.other.push_back({height * unit, speed, std::abs(speed.imag()),
                                     2 * bound * (1 + bound) + 8 * epsilon<double>()});
         }
@@ -297,6 +306,7 @@ RigModes modes(const Rig& rig, const RigModesOptions& options) {
     require_positive("modes", "gravity", options.gravity);
     check(options);
     const Threads used("modes", options.threads);
+    require_no_dashpots("modes", rig);
     if (rig.is_plain_chain()) return plain_modes(rig, options);
     const RigRoots roots("modes", rig, options.gravity,
                          [&](double share) { advance(options.progress, 0.9 * share); });
@@ -313,6 +323,7 @@ RigModes modes(const Rig& rig, const RigModesOptions& options) {
     } else {
         result = modes_by_counts(rig, roots, options);
     }
+    result.rigid = roots.rig().rigid;
     const Index neutral = roots.rig().neutral;
     result.other_available += neutral;
     // Discs find the other solutions in any case; they are returned even if not requested.
@@ -336,6 +347,7 @@ RigModes modes(const Rig& rig, const RigModesOptions& options) {
 
 REVCHAIN_INLINE RigModeCounter::RigModeCounter(const Rig& rig, double gravity) : gravity_(gravity) {
     detail::require_positive("count_modes", "gravity", gravity);
+    detail::require_no_dashpots("count_modes", rig);
     if (rig.is_plain_chain())
         plain_ = std::make_shared<const ModeCounter<double>>(rig.chain());
     else

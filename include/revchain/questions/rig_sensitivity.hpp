@@ -23,6 +23,7 @@ struct LinksAtSpeed {
         if (!std::isfinite(angular_speed) || angular_speed == 0)
             throw_invalid(place, "angular speed must be finite and not 0", angular_speed);
         require_positive(place, "gravity", gravity);
+        if (of.has_pin_springs() || of.is_damped()) require_no_pins(place, "derivatives", of);
         turning = ldexp(speed * speed / S(gravity), units.length_exponent);
     }
     const RigLink& link(Index m) const { return links[static_cast<std::size_t>(m)]; }

@@ -14,6 +14,7 @@ namespace detail {
 /// 0. Throws InvalidArgument for a support carried round and for a fluid that turns.
 REVCHAIN_LAZY
 Rig swinging(std::string_view place, const Rig& rig) {
+    require_no_pins(place, "the swing", rig);
     if (rig.support().radius != 0)
         throw_invalid(place,
                       "the support is carried round: it does not let the rig swing; use response",

@@ -17,9 +17,25 @@ inline void require_spring_under_carriage(std::string_view place, const std::str
     if (support.is_firm() && support.carriage_weight > 0)
         throw_invalid(place,
                       name +
-                          " must have a stiffness: what moves sideways needs a support that "
-                          "yields; carriage weight",
+                          " must have a stiffness (0: it rolls freely): what moves sideways needs "
+                          "a support that yields; carriage weight",
                       support.carriage_weight);
+}
+
+/// Throws InvalidArgument for a rig with springs or dashpots at pins, or a support that is damped or
+/// rolls freely. `what` is what cannot be found for it.
+inline void require_no_pins(std::string_view place, std::string_view what, const Rig& rig,
+                            bool dashpots_matter = true) {
+    const auto refuse = [&](std::string_view with) {
+        throw_invalid(
+            place,
+            std::string(what) + " cannot be found for a rig with " + std::string(with) + "; links",
+            rig.size());
+    };
+    if (rig.has_pin_springs()) refuse("springs at pins: leave them out");
+    if (rig.support().damping.high > 0 || (dashpots_matter && rig.is_damped()))
+        refuse("dashpots: leave them out");
+    if (rig.support().is_free()) refuse("a trolley that rolls freely: give it a stiffness");
 }
 
 inline Flywheel turned_flywheel(std::string_view place, double weight, double radius_of_gyration,
@@ -64,19 +80,34 @@ inline void Rig::check() const {
                                   stored);
     };
     as_long(with_.posture.size(), "posture"), as_long(with_.flywheels.size(), "flywheels");
-    as_long(with_.displaced.size(), "displaced");
+    as_long(with_.displaced.size(), "displaced"), as_long(with_.pins.size(), "pins");
     const Support& support = with_.support;
-    if (!(support.stiffness.high > 0))
-        detail::throw_invalid("Rig", "the stiffness of the support must be positive",
+    if (!(support.stiffness.high >= 0))
+        detail::throw_invalid("Rig", "the stiffness of the support must not be negative",
                               support.stiffness.high);
+    detail::require_not_negative("Rig", "damping of the support", support.damping.high);
+    if (support.is_firm() && support.damping.high > 0)
+        detail::throw_invalid("Rig",
+                              "the support must have a stiffness (0: it rolls freely): a firm one "
+                              "does not move its dashpot; damping",
+                              support.damping.high);
+    if (support.is_free() && with_.fluid == Fluid::turning)
+        detail::throw_invalid(
+            "Rig", "a trolley that rolls freely cannot be in a fluid that turns; links", size());
+    if (support.is_free() && support.radius != 0)
+        detail::throw_invalid("Rig", "a trolley that rolls freely has no radius: its radius",
+                              support.radius);
     detail::require_not_negative("Rig", "carriage weight", support.carriage_weight,
                                  "radius of the support", support.radius);
     detail::require_spring_under_carriage("Rig", "the support", support);
-    if (with_.flywheels.empty() && with_.displaced.empty()) return;
+    if (with_.flywheels.empty() && with_.displaced.empty() && with_.pins.empty()) return;
     const auto check_link = [&](Index m, std::string_view place) {
         const Flywheel wheel = flywheel(m);
         detail::require_finite(place, "momentum", wheel.momentum.high);
         detail::require_not_negative(place, "axial moment", wheel.axial_moment.high);
+        const Pin joint = pin(m);
+        detail::require_not_negative(place, "stiffness of the upper pin", joint.stiffness.high,
+                                     "damping of the upper pin", joint.damping.high);
         const Displaced fluid = displaced(m);
         detail::require_not_negative(place, "weight displaced", fluid.weight);
         detail::require_finite(place, "centre of buoyancy", fluid.centroid);

@@ -245,11 +245,33 @@ def _of_rig(rig: Rig, asked: _Asked) -> Modes:
     asked.refuse("method precision", "is for a Chain; a Rig has one method, in double")
     count, first, heights, speeds, rtol, g, _, _, certify, threads, progress = asked
     many = count_of(_CALLER, count, 10)
+    if rig.is_damped:
+        return _of_damped_rig(rig, asked, many)
     core = _core.rig_modes(rig._under(g), first, many, heights, speeds, rtol, certify, g, progress, threads)
     found = Modes._made(core, system=rig, gravity=g, rtol=rtol)
     if first > (most := max(1, *core.available)):
         raise ValueError(f"{_CALLER}: first must be from 1 to {most}, the number of modes in a direction, got {first}")
     return found
+
+
+def _of_damped_rig(rig: Rig, asked: _Asked, many: int | None) -> Modes:
+    asked.refuse("certify", "is for a Rig without dashpots, whose modes counts can prove")
+    if asked.heights or asked.speeds:
+        raise ValueError(f"{_CALLER}: a window is for a system without dashpots; give count and first")
+    g = asked.gravity
+    exponent, bound, estimate, shape, available, rigid, complete, status = _core.damped_modes(
+        rig._under(g), asked.first, many, g, asked.progress
+    )
+    if asked.first > max(1, available):
+        raise ValueError(f"{_CALLER}: first must be from 1 to {available}, the number of modes, got {asked.first}")
+    speed = exponent.imag
+    if asked.rtol is not None and not np.all(bound <= asked.rtol):
+        status = "tolerance_not_met"
+    given: dict[str, Any] = {"number": np.arange(asked.first, asked.first + len(exponent)), "angular_speed": speed}
+    given |= {"exponent": exponent, "error_bound": bound, "speed_error_bound": bound, "error_estimate": estimate}
+    given |= {"shape": shape, "available": (available, 0), "rigid": rigid, "complete": complete, "status": status}
+    given |= {"direction": np.where(speed < 0, -1, 1), "has_momentum": rig.has_momentum, "method": "exponents"}
+    return Modes._made(None, system=rig, gravity=g, rtol=asked.rtol, **given)
 
 
 def _of_cord(cord: Cord, asked: _Asked) -> Modes:

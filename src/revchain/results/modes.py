@@ -268,6 +268,35 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         heading=lambda m: f"nodes (m from the {'lower' if m.system._kind.startswith('held') else 'free'} end)",
         shown=lambda m: _texts(m.nodes),
     )
+    exponent: Field[Complex] = Field(
+        "Exponents s of the motions ``shape * exp(s * t)``, 1/s, shape (k,). With dashpots the real part is the rate of decay, "
+        "negative, and modes are numbered by the size of s; else it is 0, and the imaginary part is the angular speed.",
+        lambda m: 1j * m.angular_speed.astype(float),
+        axes=(),
+        unit="1/s",
+    )
+    damping_ratio: Field[Floats] = Field(
+        "Damping ratio of each mode, ``-exponent.real / abs(exponent)``, shape (k,): 0 without dashpots, 1 for a motion that "
+        "only decays, negative for one that grows.",
+        lambda m: -m.exponent.real / np.abs(m.exponent),
+        heading=lambda m: "damping ratio" if m._is_damped else "",
+    )
+    decay_time: Field[Floats] = Field(
+        "Time in which each motion decays to 1/e, s, shape (k,): infinite without dashpots, negative if it grows.",
+        lambda m: _over(-1.0, m.exponent.real),
+        heading=lambda m: "decay time" if m._is_damped else "",
+        unit="s",
+    )
+    error_estimate: Field[Floats] = Field(
+        "With dashpots: estimate of the relative error of each exponent, shape (k,), also where `speed_error_bound` is "
+        "infinite because nothing is proved; else the proved bound of the speed.",
+        otherwise=lambda m: m.speed_error_bound,
+        axes=(),
+    )
+    rigid: Field[int] = Field(
+        "1 if a trolley rolls freely, so that the system can also move as a whole, at speed 0; that is no mode. Else 0.",
+        otherwise=lambda m: 0,
+    )
     residual: Field[Numbers | None] = Field(
         "Residual of each shape, shape (k,): largest unbalanced force at a pin divided by the largest sum of the magnitudes of "
         "the forces at a pin. None for cords, whose shapes are closed forms or power series.",
@@ -354,7 +383,11 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
     summary: Field[str] = Field("What was found, in words.", lambda m: _summary(m))
 
     def __len__(self) -> int:
-        return int(self.conical_height.size)
+        return int((self.exponent if self._is_damped else self.conical_height).size)
+
+    @property
+    def _is_damped(self) -> bool:
+        return self.system._kind == "rig" and self.system.is_damped
 
     def __getitem__(self, index: int) -> Row:
         try:
@@ -560,22 +593,31 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         if self.system._kind.endswith("cord"):
             first = int(self.number[0]) if len(self) else 1
             return _core.CordModes(self.system._under(self.gravity), first, self.conical_height)
+        if self._is_damped:  # all is stored
+            return None
         return super()._from_parts()
 
     def _state(self) -> dict[str, Any]:
-        if not self.system._kind.endswith("cord"):
+        if not (self.system._kind.endswith("cord") or self._is_damped):
             _ = self.nodes  # of a cord they follow from its heights, as shapes do
         return super()._state()
 
     def _left_out(self) -> Collection[str]:
+        if self._is_damped:
+            return ()
         slow = "nodes" not in self.__dict__ and self.system.size * self.conical_height.size > MOST_OFFSETS
         return ("nodes",) if slow else ()
 
     @property
     def _remarks(self) -> str:
-        lines = [f"gravity {self.gravity:.6g} m/s^2; error bound: relative, of the conical height"]
+        of_what = "exponent" if self._is_damped else "conical height"
+        lines = [f"gravity {self.gravity:.6g} m/s^2; error bound: relative, of the {of_what}"]
         if self.system._kind != "rig":
             return lines[0]
+        if self._is_damped and not self.angular_speed.all():
+            lines.append("speed 0: the motion only decays")
+        if self.rigid:
+            lines.append("the trolley rolls freely: the system also moves as a whole, at speed 0, which is no mode of the list")
         if self.has_momentum:
             lines.append("negative speeds: backward, against wheels whose momentum is positive")
         slack = [f"links[{k}] goes slack at {at:.6g} rad/s" for k, at in zip(self.slack_link, self.slack_speed, strict=True)]
@@ -632,6 +674,11 @@ def rest(values: Numbers, second: Floats | None) -> Floats | None:
     return left
 
 
+def _over(number: float, values: Floats) -> Floats:
+    with np.errstate(divide="ignore"):
+        return np.asarray(number / np.where(values == 0, -0.0, values))
+
+
 def _certificate(modes: Modes) -> Certificate | None:
     found = getattr(modes._found(), "certificate", None)
     if found is None:
@@ -642,7 +689,7 @@ def _certificate(modes: Modes) -> Certificate | None:
 
 def _others(modes: Modes) -> OtherModes:
     names = ("conical_height", "angular_speed", "growth_rate", "error_bound")
-    if modes.system._kind != "rig":
+    if modes.system._kind != "rig" or modes._is_damped:
         none = np.empty(0)
         return OtherModes._made(None, **dict(zip(names, (none + 0j, none + 0j, none, none), strict=True)))
     known = modes._core if isinstance(modes._core, _core.RigModes) else None

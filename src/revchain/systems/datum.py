@@ -149,6 +149,8 @@ def _paths(system: Any, heavy: str) -> list[str]:
     wheels = () if system.flywheels is None else system.flywheels._given
     fluid = () if system.displaced is None else system.displaced._given
     paths += [f"flywheels[k].{name}" for name in wheels if name not in ("momentum", "driven")]
+    pins = ("stiffness", "damping") if system.pins is not None else ()
+    paths += [f"pins[k].{name}" for name in pins] + ["support.damping"] * (system.support.damping > 0)
     return paths + [f"displaced[k].{name}" for name in fluid]
 
 
@@ -209,11 +211,11 @@ def _chain(caller: str, chain: Chain, state: tuple[Any, ...]) -> Chain:
 
 
 def _of_rig(caller: str, rig: Rig, path: str, link: int | None, gravity: float) -> Datum:
-    chain, support, wheels, fluid, *rest = rig._state()
+    chain, support, wheels, fluid, pins, *rest = rig._state()
     where, _, name = path.rpartition(".")
 
     def made(**new: Any) -> Rig:
-        fittings = {"chain": chain, "support": support, "flywheels": wheels, "displaced": fluid} | new
+        fittings = {"chain": chain, "support": support, "flywheels": wheels, "displaced": fluid, "pins": pins} | new
         return Rig._from_state((*fittings.values(), *rest))
 
     if where == "" or where.startswith("links"):
@@ -224,8 +226,12 @@ def _of_rig(caller: str, rig: Rig, path: str, link: int | None, gravity: float) 
     if where == "support":
         present, typical = rig.support.carriage or 0.0, rig.support.carriage or whole
         rate = "support_mass"
+        weight = rig._force(gravity) * whole
         if name == "stiffness":
-            present, typical, rate = rig.support.stiffness, rig._force(gravity) * whole / long, "stiffness"
+            present, typical, rate = rig.support.stiffness, weight / long, "stiffness"
+        if name == "damping":
+            typical = weight / math.sqrt(gravity * long)
+            return Datum(path, rig.support.damping, lambda x: made(support={**support, name: x}), typical)
         return Datum(path, present, lambda x: made(support={**support, name: x}), typical, rate=(rate, 1.0))
     assert link is not None
     here = np.arange(rig.size) == link
@@ -240,13 +246,16 @@ def _of_rig(caller: str, rig: Rig, path: str, link: int | None, gravity: float) 
 
         return Datum(path, float(kept[link]), turning, typical, None, rate=("momentum", part))
     what = where.partition("[")[0]
-    given = {"flywheels": wheels, "displaced": fluid}[what]
-    column = np.broadcast_to(given[name], rig.size)
+    given = {"flywheels": wheels, "displaced": fluid, "pins": pins}[what]
+    column = np.broadcast_to(given.get(name, 0.0), rig.size)
     present = float(column[link])
 
     def change(x: float) -> Rig:
         return made(**{what: {**given, name: np.where(here, x, column)}})
 
+    if what == "pins":
+        torque = rig._force(gravity) * whole * long
+        return Datum(path, present, change, torque if name == "stiffness" else torque * math.sqrt(long / gravity))
     if name == "spin":
         return Datum(path, present, change, max(abs(present), math.sqrt(gravity / long)), None, rate=("spin", part))
     if name in ("centroid", "radius_of_gyration"):

@@ -70,17 +70,19 @@ def _fitting(kind: type[_Fitting], given: dict[str, Any]) -> _Fitting:
 
 
 class Support(_Fitting):
-    """The support of the uppermost pin: firm, on a horizontal spring, or moving in a circle.
+    """The support of the uppermost pin: firm, on a horizontal spring, a free trolley, or moving in a circle.
 
     A rig without a support hangs from a firm point on the axis.
 
     Parameters
     ----------
     stiffness : float
-        Horizontal stiffness of the spring, N/m, positive; infinite for a firm support.
+        Horizontal stiffness of the spring, N/m; infinite for a firm support, 0 for a trolley that rolls freely. With a
+        mass or weight and no stiffness the support is such a trolley.
+    damping : float
+        Damping of a dashpot between the pin and the ground, N s/m. It needs a mass or a stiffness.
     mass, weight : float, optional
-        Mass (kg) or weight (N) that moves horizontally with the pin, in the same quantity as the chain. It needs a
-        stiffness.
+        Mass (kg) or weight (N) that moves horizontally with the pin, in the same quantity as the chain.
     radius : float
         Radius of the circle in which the support is carried round, m; 0 on the axis. With a spring it is the radius of
         its rest position. At an end of a `Held` it may be negative: on the other side of the axis.
@@ -88,49 +90,73 @@ class Support(_Fitting):
     Raises
     ------
     ValueError
-        If a number is not finite or is out of its range, or a mass moves with a pin that has no spring.
+        If a number is not finite or is out of its range, if a mass moves with a pin of infinite stiffness, or if a
+        trolley that rolls freely has a radius.
 
     References
     ----------
-    Greenhill (1908), sections 1 (9) and 2 (7).
+    Greenhill (1908), sections 1 (9) and 2 (7). Free trolley: J. R. Taylor, Classical Mechanics (2005), problem 11.28.
 
     Examples
     --------
     >>> import revchain as rc
     >>> rc.Support(stiffness="2 kN/m", mass=20.0)
     Support(stiffness=2000.0, mass=20.0)
+
+    A trolley of 1 t that rolls freely under a crane:
+
+    >>> load = rc.Chain(mass=4000.0, length=10.0)
+    >>> rc.modes(rc.Rig(load, support=rc.Support(mass=1000.0)), gravity=9.81).angular_speed.round(4)
+    array([2.2147])
     """
 
     __slots__ = ()
 
     def __init__(
-        self, *, stiffness: float = math.inf, mass: float | None = None, weight: float | None = None, radius: float = 0.0
+        self,
+        *,
+        stiffness: float | None = None,
+        damping: float = 0.0,
+        mass: float | None = None,
+        weight: float | None = None,
+        radius: float = 0.0,
     ) -> None:
         caller = "revchain.Support"
         if mass is not None and weight is not None:
             raise ValueError(f"{caller}: give either mass or weight, got both")
-        numbers = {"stiffness": stiffness, "mass": mass, "weight": weight, "radius": radius}
+        numbers = {"stiffness": stiffness, "damping": damping, "mass": mass, "weight": weight, "radius": radius}
         given = {name: real(caller, name, value) for name, value in numbers.items() if value is not None}
         for name, value in given.items():
-            if name == "stiffness" and not value > 0:
-                raise ValueError(f"{caller}: stiffness must be positive, got {value:g}")
+            if name == "stiffness" and not value >= 0:
+                raise ValueError(f"{caller}: stiffness must not be negative, got {value:g}")
             if name == "radius" and not math.isfinite(value):
                 raise ValueError(f"{caller}: radius must be finite, got {value:g}")
-            if name in ("mass", "weight") and not 0 <= value < math.inf:
+            if name in ("damping", "mass", "weight") and not 0 <= value < math.inf:
                 raise ValueError(f"{caller}: {name} must be finite and not negative, got {value:g}")
-        carriage = {name: value for name, value in given.items() if name in ("mass", "weight") and value > 0}
-        if carriage and math.isinf(given.get("stiffness", math.inf)):
-            ((name, value),) = carriage.items()
+        moving = [name for name in ("mass", "weight", "damping") if given.get(name)]
+        if moving and math.isinf(given.get("stiffness", math.inf if moving == ["damping"] else 0.0)):
             raise ValueError(
-                f"{caller}: stiffness is missing: what moves sideways needs a support that yields, got {name} {value:g}"
+                f"{caller}: {moving[0]} does not go with a firm support: give a stiffness (0 for a trolley that rolls "
+                f"freely), got {moving[0]} {given[moving[0]]:g}"
             )
+        free = bool(moving) and "stiffness" not in given or given.get("stiffness") == 0
+        if free and given.get("radius"):
+            raise ValueError(f"{caller}: a trolley that rolls freely has no radius, got radius {given['radius']:g}")
         left_out = {"stiffness": math.inf}
-        _set(self, "_given", {name: value for name, value in given.items() if value != left_out.get(name, 0.0)})
+        kept = {name: value for name, value in given.items() if value != left_out.get(name, 0.0)}
+        if free and not {"mass", "weight"} & kept.keys():
+            kept["stiffness"] = 0.0
+        _set(self, "_given", kept)
 
     @property
     def stiffness(self) -> float:
-        """Stiffness of the spring, N/m; infinite for a firm support."""
-        return float(self._given.get("stiffness", math.inf))
+        """Stiffness of the spring, N/m; infinite for a firm support, 0 for a trolley that rolls freely."""
+        return float(self._given.get("stiffness", 0.0 if {"mass", "weight"} & self._given.keys() else math.inf))
+
+    @property
+    def damping(self) -> float:
+        """Damping of the dashpot to the ground, N s/m."""
+        return float(self._given.get("damping", 0.0))
 
     @property
     def radius(self) -> float:
@@ -144,8 +170,55 @@ class Support(_Fitting):
 
     def _words(self, unit: str) -> str:
         held = "firm" if math.isinf(self.stiffness) else f"on a spring of {self.stiffness:.6g} N/m"
+        if self.stiffness == 0:
+            held = "a trolley that rolls freely"
         held += f" with {self.carriage:.6g} {unit}" if self.carriage else ""
+        held += f", damped by {self.damping:.6g} N s/m" if self.damping else ""
         return held + (f", carried round at {self.radius:.6g} m" if self.radius else "")
+
+
+class Pin(_Fitting):
+    """Torsion springs and dashpots at the pins: bending stiffness of a cable, friction of hinges.
+
+    Each acts between the two links at a pin; at the uppermost pin between the link and the vertical. Give each quantity as
+    one number for every pin, or as an array with one number for the upper pin of each link, lowest first.
+
+    Parameters
+    ----------
+    stiffness : array_like, shape (N,) or scalar
+        Torque over the angle between the links, N m/rad; the straight chain is relaxed. For a chain given by weight in the
+        unit of its weights times m.
+    damping : array_like
+        Torque over the rate of that angle, N m s/rad.
+
+    Raises
+    ------
+    ValueError
+        If a number is not finite or is negative.
+
+    Notes
+    -----
+    A cable of bending stiffness EI in links of length a has springs EI/a at its pins, and 2 EI/a at a clamp. Cost: O(N),
+    when the rig is made. Source: docs/theory/damping.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> pendulum = rc.Rig(rc.Chain(mass=1.0, length=1.0), pins=rc.Pin(damping=0.2))
+    >>> m = rc.modes(pendulum, gravity=9.81)
+    >>> m.exponent.round(4), m.damping_ratio.round(4), m.decay_time
+    (array([-0.1+3.1305j]), array([0.0319]), array([10.]))
+    """
+
+    __slots__ = ()
+
+    def __init__(self, *, stiffness: ArrayLike = 0.0, damping: ArrayLike = 0.0) -> None:
+        caller = "revchain.Pin"
+        columns = {name: floats(caller, name, value) for name, value in {"stiffness": stiffness, "damping": damping}.items()}
+        for name, column in columns.items():
+            refuse_where(~np.isfinite(column), column, f"{caller}: {name} must be finite")
+            refuse_where(column < 0, column, f"{caller}: {name} must not be negative")
+        _set(self, "_given", {name: read_only(column) for name, column in columns.items() if column.any()})
 
 
 class Flywheel(_Fitting):
@@ -343,6 +416,8 @@ class Rig(System):
     fluid : {"still", "turning"}
         Motion of the fluid. Still fluid reduces the weight of a link by its buoyancy. Fluid that turns with the chain
         also reduces the mass that whirls.
+    pins : Pin, optional
+        Springs and dashpots at the pins.
     inverted : array_like of bool, shape (N,) or scalar
         Links that stand on their upper pin (counted along the chain) instead of hanging from it. Small oscillations take
         place about the straight chain with these links inverted.
@@ -386,12 +461,14 @@ class Rig(System):
         "displaced": "Fluid that the links displace; None if there is none.",
         "flywheels": "Wheels that spin about the axes of links; None if there are none.",
         "fluid": "Motion of the fluid: ``'still'`` or ``'turning'`` (with the chain).",
+        "pins": "Springs and dashpots at the pins; None if there are none.",
         "support": "Support of the uppermost pin.",
     }
     chain: Chain
     support: Support
     flywheels: Flywheel | None
     displaced: Displaced | None
+    pins: Pin | None
     fluid: str
     _inverted: NDArray[np.bool_] | None
     _at: tuple[float, _core.Rig]
@@ -405,11 +482,13 @@ class Rig(System):
         displaced: Displaced | None = None,
         fluid: str = "still",
         inverted: ArrayLike = False,
+        pins: Pin | None = None,
     ) -> None:
         caller = "revchain.Rig"
         compiled(caller, chain)
         word(caller, "fluid", fluid, FLUIDS)
         fittings = {"support": (support, Support), "flywheels": (flywheels, Flywheel), "displaced": (displaced, Displaced)}
+        fittings["pins"] = (pins, Pin)
         for name, (fitting, kind) in fittings.items():
             if fitting is not None and not isinstance(fitting, kind):
                 raise TypeError(f"{caller}: {name} must be a revchain.{kind.__name__}, got {shown(fitting)}")
@@ -426,6 +505,7 @@ class Rig(System):
         _set(self, "support", Support() if support is None else support)
         _set(self, "flywheels", flywheels)
         _set(self, "displaced", displaced)
+        _set(self, "pins", pins if pins is not None and pins._given else None)
         _set(self, "fluid", fluid)
         _set(self, "_inverted", _flags(caller, inverted, chain.size))
         _set(self, "_at", (STANDARD_GRAVITY, self._made(STANDARD_GRAVITY)))  # what is wrong is said now
@@ -470,6 +550,11 @@ class Rig(System):
         """Whether a wheel has constant angular momentum, so that the two directions of rotation differ."""
         return self.flywheels is not None and bool(self._momentum(STANDARD_GRAVITY).any())
 
+    @property
+    def is_damped(self) -> bool:
+        """Whether the support or a pin has a dashpot: motions then decay."""
+        return self.support.damping > 0 or (self.pins is not None and "damping" in self.pins._given)
+
     _kind = "rig"
     _fixes_gravity = "a rig"
 
@@ -507,7 +592,8 @@ class Rig(System):
 
     def _needs_gravity(self) -> bool:
         wheels = self.flywheels is not None and (self.by_mass or "spin" in self.flywheels._given)
-        return wheels or (self.by_mass and math.isfinite(self.support.stiffness))
+        springs = self.support.damping > 0 or 0 < self.support.stiffness < math.inf or self.pins is not None
+        return wheels or (self.by_mass and springs)
 
     def _made(self, gravity: float) -> _core.Rig:
         caller, size = "revchain.Rig", self.size
@@ -518,11 +604,15 @@ class Rig(System):
         if self.displaced is not None:
             for name, value in self.displaced._given.items():
                 columns[_COLUMN_OF[name]] = _column(caller, f"displaced {name}", value, size)
+        if self.pins is not None:
+            for name, value in self.pins._given.items():
+                columns[f"pin_{name}"] = _column(caller, f"pins {name}", value, size)
         return _core.Rig(
             self.chain._compiled,
             stiffness=self.support.stiffness,
             carriage_weight=self.support.carriage,
             support_radius=self.support.radius,
+            support_damping=self.support.damping,
             standing=self._inverted,
             turning_fluid=self.fluid == "turning",
             force=self._force(gravity),
@@ -530,18 +620,25 @@ class Rig(System):
             **columns,
         )
 
+    def _pin(self, name: str) -> Floats:
+        """Stiffness or damping at the upper pin of each link, shape (N,)."""
+        given = {} if self.pins is None else self.pins._given
+        return np.broadcast_to(given.get(name, _NOTHING), self.size)
+
     def _words(self) -> list[str]:
         return [f"support: {self.support._words(self.chain._unit)}", *self.chain._link_words(), *self._extras()]
 
     def _extras(self) -> list[str]:
-        """Descriptions of the inverted links, the wheels and the fluid."""
+        """Descriptions of the inverted links, the wheels, the fluid and the pins."""
         borne = self.displaced is not None and np.broadcast_to(next(iter(self.displaced._given.values())), self.size)
         counts = (
             (np.count_nonzero(self.inverted), "inverted"),
             (np.count_nonzero(self._momentum(STANDARD_GRAVITY)), "with momentum"),
             (np.count_nonzero(borne), f"in {self.fluid} fluid"),
         )
-        return [f"{count:,} link{'s' if count > 1 else ''} {what}" for count, what in counts if count]
+        words = [f"{count:,} link{'s' if count > 1 else ''} {what}" for count, what in counts if count]
+        at_pins = {what: int(np.count_nonzero(self._pin(name))) for name, what in _AT_PINS.items()}
+        return words + [f"{what}s at {count:,} pin{'s' * (count > 1)}" for what, count in at_pins.items() if count]
 
     def __len__(self) -> int:
         return self.size
@@ -559,35 +656,40 @@ class Rig(System):
     def __repr__(self) -> str:
         links = "1 link" if self.size == 1 else f"{self.size:,} links"
         support, with_what = self.support, []
-        if math.isfinite(support.stiffness):
+        if 0 < support.stiffness < math.inf:
             with_what.append(f"support of stiffness {support.stiffness:.6g}")
-        if support.carriage:
+        if support.stiffness == 0:
+            with_what.append(f"trolley of {'mass' if self.by_mass else 'weight'} {support.carriage:.6g} that rolls freely")
+        elif support.carriage:
             with_what.append(f"carriage of {'mass' if self.by_mass else 'weight'} {support.carriage:.6g}")
+        if support.damping:
+            with_what.append(f"support of damping {support.damping:.6g}")
         if support.radius:
             with_what.append(f"carried round at radius {support.radius:.6g}")
         return f"Rig of a chain of {links}: {', '.join(with_what + self._extras()) or 'nothing added'}"
 
     def _state(self) -> tuple[Any, ...]:
         """Return the parts that make up the rig, for pickles and copies with one part changed."""
-        fittings = (self.support, self.flywheels, self.displaced)
+        fittings = (self.support, self.flywheels, self.displaced, self.pins)
         given = tuple(None if fitting is None else dict(fitting._given) for fitting in fittings)
         return self.chain, *given, self.fluid, self._inverted
 
     @classmethod
     def _from_state(cls, state: Any) -> Rig:
-        chain, support, flywheels, displaced, fluid, inverted = state
+        chain, support, flywheels, displaced, pins, fluid, inverted = state
         return cls(
             chain,
             support=Support(**support),
             flywheels=None if flywheels is None else Flywheel(**flywheels),
             displaced=None if displaced is None else Displaced(**displaced),
+            pins=None if pins is None else Pin(**pins),
             fluid=fluid,
             inverted=False if inverted is None else inverted,
         )
 
     def _data(self) -> dict[str, Any]:
         _, *given, fluid, inverted = self._state()
-        names = ("support", "flywheels", "displaced")
+        names = ("support", "flywheels", "displaced", "pins")
         fittings = {
             name: {key: plain(value) for key, value in fitting.items()}
             for name, fitting in zip(names, given, strict=True)
@@ -598,7 +700,7 @@ class Rig(System):
 
     @classmethod
     def _from_data(cls, data: dict[str, Any]) -> Rig:
-        kinds = {"support": Support, "flywheels": Flywheel, "displaced": Displaced}
+        kinds = {"support": Support, "flywheels": Flywheel, "displaced": Displaced, "pins": Pin}
         fittings: dict[str, Any] = {name: kind(**data[name]) for name, kind in kinds.items() if name in data}
         chain = Chain.from_dict(data["chain"])
         return cls(chain, **fittings, fluid=data["fluid"], inverted=data.get("inverted", False))
@@ -614,6 +716,7 @@ _COLUMN_OF = {
     "added_mass": "added_weight",
     "added_weight": "added_weight",
 }
+_AT_PINS = {"stiffness": "spring", "damping": "dashpot"}
 _NOTHING = np.zeros(())
 
 

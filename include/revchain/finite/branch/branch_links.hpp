@@ -89,6 +89,7 @@ struct BranchSystem {
     BranchSystem(const Rig& of, double g, Rotation sense)
         : rig(of), units(of.chain().units()), gravity(g), direction(sense) {
         using std::sqrt;
+        detail::require_no_pins("branches", "branches", of, false);
         for (const detail::RigLink& link : detail::rig_links(of)) {
             const bool stands = of.stands(static_cast<Index>(links.links.size()));
             links.links.push_back({link.length, stands ? -link.tension : link.tension, link.cross,

@@ -81,6 +81,7 @@ void RiggedLinks::add_support(Shape& shape, const Fine& height, const Found& fou
 /// tension, or the moment of the moving weight of the lowest link, cannot be distinguished from 0.
 REVCHAIN_LAZY
 RiggedLinks rigged_links(const Rig& rig, const Fine& height, const Fine& speed) {
+    detail::require_no_pins("steady_shapes", "steady shapes", rig, false);
     RiggedLinks result;
     result.units = rig.chain().units();
     result.given = detail::rig_links(rig);

@@ -316,6 +316,7 @@ Stability judged(const Rig& rig, const SteadyShape& shape, const RigStabilityOpt
     detail::require_positive(place, "gravity", options.gravity, "conical height of the shape",
                              shape.conical_height);
     require_shape_of(rig.chain(), shape);
+    detail::require_no_pins(place, "stability", rig);
     const Support& support = rig.support();
     const double end = shape.offset[rig.size()];
     if (support.is_firm() &&

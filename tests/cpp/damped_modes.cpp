@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: MPL-2.0
+// Springs and dashpots at pins, and free trolleys, against energies added up in rotations and quadruple precision: dense
+// matrices K, C, G and M, which the library never assembles, and Newton's method on det(K + s (C - i G) + s^2 M/g).
+#include "revchain/damped_modes.hpp"
+
+#include "revchain/rig_modes.hpp"
+#include "support/catch.hpp"
+#include "support/chains.hpp"
+#include "support/truth.hpp"
+
+using namespace revchain;
+using support::Quad;
+using support::quad;
+
+namespace {
+
+struct Z {  // std::complex is for built-in scalars only
+    Quad re = 0, im = 0;
+    friend Z operator+(Z x, Z y) { return {x.re + y.re, x.im + y.im}; }
+    friend Z operator-(Z x, Z y) { return {x.re - y.re, x.im - y.im}; }
+    friend Z operator*(Z x, Z y) { return {x.re * y.re - x.im * y.im, x.re * y.im + x.im * y.re}; }
+    friend Z operator/(Z x, Z y) {
+        const Quad size = y.re * y.re + y.im * y.im;
+        return {(x.re * y.re + x.im * y.im) / size, (x.im * y.re - x.re * y.im) / size};
+    }
+    friend Quad size_of(Z x) { return sqrtq(x.re * x.re + x.im * x.im); }
+};
+
+/// The matrices of a rig in the rotations of its links, lowest first, and the offset of its support.
+struct Truth {
+    using Square = std::vector<std::vector<Quad>>;
+    std::size_t links, size;
+    Square K, C, G, M;
+
+    Truth(const Rig& rig, double gravity) : links(static_cast<std::size_t>(rig.size())) {
+        const Support& support = rig.support();
+        size = links + (support.is_firm() ? 0 : 1);
+        for (Square* each : {&K, &C, &G, &M}) each->assign(size, std::vector<Quad>(size, 0));
+        Quad hung = 0;
+        for (std::size_t m = 0; m < links; ++m) {
+            const auto i = static_cast<Index>(m);
+            const Link<double> link = rig.chain().link(i);
+            const Quad sign = rig.stands(i) ? -1 : 1, W = link.weight, a = link.length;
+            // the centre's offset by every rotation above, by its own, and by the support's offset
+            std::vector<Quad> centre(size, 0);
+            centre[m] = sign * link.centroid;
+            for (std::size_t k = m + 1; k < links; ++k) centre[k] = lever(rig, k);
+            if (size > links) centre[links] = 1;
+            for (std::size_t k = 0; k < size; ++k)
+                for (std::size_t l = 0; l < size; ++l) M[k][l] += W * centre[k] * centre[l] / gravity;
+            M[m][m] += W * quad(link.gyration_ratio) * a * a / gravity;
+            K[m][m] += sign * (W * link.centroid + a * hung);
+            G[m][m] += sign * quad(rig.flywheel(i).momentum);
+            hung += W;
+            const Pin pin = rig.pin(i);
+            for (auto [matrix, number] : {std::pair(&K, quad(pin.stiffness)), std::pair(&C, quad(pin.damping))}) {
+                (*matrix)[m][m] += number;
+                if (m + 1 == links) continue;
+                (*matrix)[m + 1][m + 1] += number;
+                (*matrix)[m][m + 1] -= number, (*matrix)[m + 1][m] -= number;
+            }
+        }
+        if (size == links) return;
+        K[links][links] += quad(support.stiffness), C[links][links] += quad(support.damping);
+        M[links][links] += Quad(support.carriage_weight) / gravity;
+    }
+    static Quad lever(const Rig& rig, std::size_t m) {
+        const auto i = static_cast<Index>(m);
+        return (rig.stands(i) ? -1 : 1) * Quad(rig.chain().length()[i]);
+    }
+
+    /// Newton's step at s for det Q: 1 / trace(Q^-1 Q').
+    Z step(Z s) const {
+        std::vector<std::vector<Z>> Q(size, std::vector<Z>(2 * size));  // beside Q its derivative
+        const Z i{0, 1};
+        for (std::size_t k = 0; k < size; ++k)
+            for (std::size_t l = 0; l < size; ++l) {
+                const Z c = Z{C[k][l], 0} - i * Z{G[k][l], 0}, m{M[k][l], 0};
+                Q[k][l] = Z{K[k][l], 0} + s * c + s * s * m;
+                Q[k][size + l] = c + (s + s) * m;
+            }
+        for (std::size_t p = 0; p < size; ++p) {
+            std::size_t best = p;
+            for (std::size_t k = p; k < size; ++k)
+                if (size_of(Q[k][p]) > size_of(Q[best][p])) best = k;
+            std::swap(Q[p], Q[best]);
+            for (std::size_t k = 0; k < size; ++k) {
+                if (k == p) continue;
+                const Z share = Q[k][p] / Q[p][p];
+                for (std::size_t l = p; l < 2 * size; ++l) Q[k][l] = Q[k][l] - share * Q[p][l];
+            }
+        }
+        Z trace;
+        for (std::size_t k = 0; k < size; ++k) trace = trace + Q[k][size + k] / Q[k][k];
+        return Z{1, 0} / trace;
+    }
+    /// The nearest root of det Q: Newton's method from s, with the others so far away that it converges at once.
+    Z root(std::complex<double> start) const {
+        Z s{start.real(), start.imag()};
+        for (int round = 0; round < 4; ++round) {
+            const Z change = step(s);
+            if (!(size_of(change) >= 0)) break;  // NaN: a pivot is 0, at the exact root
+            s = s - change;
+        }
+        return s;
+    }
+};
+
+struct Options {
+    bool damped = true, momentum = false, extreme = false, stands = false;
+    Index most = 12;
+};
+
+Rig random_rig(support::Random& random, const Options& options) {
+    const auto n = static_cast<Index>(random.between(1, double(options.most) + 0.999));
+    std::vector<Link<double>> links;
+    double weight = 0, length = 0;
+    for (Index m = 0; m < n; ++m) {
+        const double decades = options.extreme ? 8 : 2;
+        const double w = std::pow(10, random.between(-decades, decades)), a = std::pow(10, random.between(-1, 1));
+        const double h = a * random.between(0.05, 1.5), k = a * random();
+        links.push_back(compound_pendulum<double>({.weight = w, .length = a, .centroid = h, .radius_of_gyration = k}));
+        weight += w, length += a;
+    }
+    Rigging with;
+    const double time = std::sqrt(length / 9.81);
+    const auto stiffness = [&] { return std::pow(10, random.between(-3, 3)); };
+    const auto damping = [&](double k) { return options.damped ? 2 * random.log_between(1e-4, 2) * k * time : 0.0; };
+    for (Index m = 0; m < n; ++m) {
+        const double k = stiffness();
+        with.pins.push_back({k * weight * length * (random() < 0.7 ? 1.0 : 0.0), damping(std::sqrt(k)) * weight * length});
+        if (options.momentum) with.flywheels.push_back({random.between(-3, 3) * weight * length * time, 0});
+        with.posture.push_back(options.stands && random() < 0.5 ? Posture::stands : Posture::hangs);
+    }
+    if (random() < 0.6) {
+        const double k = random() < 0.3 ? 0.0 : stiffness();
+        with.support = {k * weight / length, weight * random.log_between(1e-2, 1e2), 0};
+        if (random() < 0.7) with.support.damping = damping(std::sqrt(std::max(k, 0.1))) * weight / length;
+    }
+    return {Chain<double>(links), with};
+}
+
+/// Checks `count` rigs; returns how many modes were not proved.
+struct Checked {
+    Index modes = 0, unproved = 0, poor_estimates = 0;
+};
+Checked check(Index count, std::uint64_t seed, const Options& options) {
+    support::Random random(seed);
+    Checked result;
+    for (Index k = 0; k < count; ++k) {
+        const Rig rig = random_rig(random, options);
+        if (!rig.is_damped()) continue;
+        const DampedModes found = damped_modes(rig, {.gravity = 9.81});
+        const Truth truth(rig, 9.81);
+        CAPTURE(k, rig.size(), rig.support().stiffness.high, rig.support().damping.high);
+        const bool drifts = rig.support().is_free() && rig.support().damping.high == 0;
+        Index exponents = rig.support().is_free() && !drifts ? 1 : 0;
+        for (Index j = 0; j < found.size(); ++j) {
+            const std::complex<double> s = found.exponent[j];
+            const Z exact = truth.root(s);
+            const Quad off = size_of(exact - Z{s.real(), s.imag()}) / size_of(exact);
+            exponents += rig.has_momentum() || s.imag() == 0 ? 1 : 2;
+            ++result.modes;
+            CAPTURE(j, s.real(), s.imag(), static_cast<double>(off), found.error_bound[j], found.error_estimate[j]);
+            REQUIRE(off <= Quad(found.error_bound[j]));
+            if (!(found.error_bound[j] < 1e-15)) ++result.unproved;
+            if (off > 10 * Quad(found.error_estimate[j])) ++result.poor_estimates;
+            if (j > 0 && !rig.has_momentum()) REQUIRE(std::abs(found.exponent[j - 1]) <= std::abs(s) * (1 + 1e-15));
+        }
+        const Index freedoms = static_cast<Index>(truth.size) - (drifts ? 1 : 0);
+        if (found.complete) REQUIRE(exponents == 2 * freedoms);
+        if (found.complete) REQUIRE(found.status == Status::success);
+    }
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("one pendulum with a dashpot: s = -c/2 + i sqrt(g/l - c^2/4)", "[linear]") {
+    const Chain<double> chain({plummet(9.81, 1.0)});
+    for (const double c : {1e-12, 0.2, 3.0, 6.2}) {
+        const auto m = damped_modes({chain, {.pins = {{.damping = c}}}}, {.gravity = 9.81});
+        REQUIRE(m.size() == 1);
+        CHECK(std::abs(m.exponent[0] - std::complex<double>(-c / 2, std::sqrt(9.81 - c * c / 4))) <= 1e-15 * 3.2);
+        CHECK(m.error_bound[0] <= 1.2e-16);
+        CHECK(m.complete);
+        CHECK(std::abs(m.damping_ratio(0) - c / 2 / std::sqrt(9.81)) <= 4e-16);
+        CHECK(std::abs(m.decay_time(0) - 2 / c) <= 4e-16 * 2 / c);
+    }
+    const auto m = damped_modes({chain, {.pins = {{.damping = 10}}}}, {.gravity = 9.81});  // over-damped
+    REQUIRE(m.size() == 2);
+    const double root = std::sqrt(25 - 9.81);
+    CHECK(m.exponent[0].imag() == 0);
+    CHECK(std::abs(m.exponent[0].real() - (root - 5)) <= 1e-15);
+    CHECK(std::abs(m.exponent[1].real() + (root + 5)) <= 2e-15);
+    CHECK(m.damping_ratio(0) == 1);
+    CHECK(m.damped_frequency(1) == 0);
+}
+
+TEST_CASE("random rigs with dashpots: every exponent within its bound, none missed", "[linear]") {
+    const Checked plain = check(250, 1, {});
+    CHECK(plain.unproved == 0);
+    const Checked spinning = check(120, 2, {.momentum = true});
+    CHECK(spinning.unproved * 100 <= spinning.modes);
+    const Checked standing = check(120, 3, {.stands = true});
+    CHECK(standing.unproved * 100 <= standing.modes);
+    const Checked extreme = check(120, 4, {.extreme = true, .most = 6});
+    for (const Checked& each : {plain, spinning, standing, extreme}) CHECK(each.poor_estimates * 100 <= each.modes);
+}
+
+TEST_CASE("10,000 random rigs with dashpots", "[.slow]") {
+    const Checked all[] = {check(5000, 11, {}), check(2000, 12, {.momentum = true}), check(2000, 13, {.stands = true}),
+                           check(1000, 14, {.extreme = true})};
+    for (const Checked& each : all) {
+        WARN(each.modes << " modes, " << each.unproved << " without a proved bound of 1e-15, " << each.poor_estimates
+                        << " estimates below a tenth of the error");
+        CHECK(each.poor_estimates * 100 <= each.modes);
+    }
+}
+
+TEST_CASE("a long damped chain, whose modes are nearly dependent, is proved in two words", "[linear]") {
+    const std::vector<Pin> pins(100, Pin{0.5, 0.01});
+    const Rig rig(Chain<double>::uniform_rods(100, 10.0, 100.0), {.support = horizontal_spring(50, 1), .pins = pins});
+    const auto m = damped_modes(rig);
+    CHECK(m.complete);
+    CHECK(m.error_bound.maxCoeff() <= 1e-14);
+    Index exponents = 0;
+    for (const auto& s : m.exponent) exponents += s.imag() == 0 ? 1 : 2;
+    CHECK(exponents == 202);
+}
+
+TEST_CASE("springs at pins without dashpots: proved speeds and all of them", "[linear]") {
+    support::Random random(5);
+    for (const bool extreme : {false, true})
+        for (int k = 0; k < 200; ++k) {
+            const Rig rig = random_rig(random, {.damped = false, .extreme = extreme});
+            if (rig.is_plain_chain()) continue;
+            const RigModes found = modes(rig, {.count = all_modes, .gravity = 9.81});
+            const Truth truth(rig, 9.81);
+            const Index rigid = rig.support().is_free() ? 1 : 0;
+            CAPTURE(k, extreme, rig.size(), found.forward.size());
+            REQUIRE(found.rigid == rigid);
+            REQUIRE(found.complete);
+            REQUIRE(found.forward.size() == static_cast<Index>(truth.size) - rigid);
+            for (Index j = 0; j < found.forward.size(); ++j) {
+                const double n = found.forward.angular_speed[j];
+                const Quad off = size_of(truth.root({0, n}) - Z{0, n}) / n;
+                CAPTURE(j, n, static_cast<double>(off), found.forward.speed_error_bound[j]);
+                REQUIRE(off <= Quad(found.forward.speed_error_bound[j]));
+                REQUIRE(found.forward.speed_error_bound[j] <= (extreme ? 1e-12 : 3e-16));
+            }
+        }
+}
+
+TEST_CASE("standing links on springs: growth rates and modes", "[linear]") {
+    support::Random random(6);
+    for (int k = 0; k < 200; ++k) {
+        const Rig rig = random_rig(random, {.damped = false, .stands = true});
+        const RigModes found = modes(rig, {.count = all_modes, .gravity = 9.81});
+        const Truth truth(rig, 9.81);
+        CAPTURE(k, rig.size());
+        REQUIRE(found.complete);
+        REQUIRE(found.forward.size() + found.other_available + found.rigid == static_cast<Index>(truth.size));
+        for (const OtherMode& other : found.other) {
+            const Quad off = size_of(truth.root({other.growth_rate, 0}) - Z{other.growth_rate, 0});
+            REQUIRE(off <= Quad(4e-16) * other.growth_rate);
+        }
+    }
+}
+
+TEST_CASE("trolleys: a crane's load, five bobs upright on a cart, a trolley on a spring", "[linear]") {
+    const double g = 9.81;
+    const auto crane = modes(Rig(Chain<double>({plummet(4000 * g, 10.0)}), {.support = free_trolley(1000 * g)}),
+                             {.gravity = g});
+    REQUIRE(crane.forward.size() == 1);
+    CHECK(crane.rigid == 1);
+    CHECK(crane.other_available == 0);
+    CHECK(std::abs(crane.forward.angular_speed[0] - 2.2147234590) <= 5e-11);
+    CHECK(crane.forward.speed_error_bound[0] <= 3e-16);
+    CHECK(std::abs(crane.forward.shape(0)[0] / crane.forward.shape(0)[1] + 0.25) <= 1e-15);
+
+    const Rig cart(Chain<double>::uniform_plummets(5, 1.0, 5 * 0.002 * g),
+                   {.support = free_trolley(0.002 * g), .posture = std::vector<Posture>(5, Posture::stands)});
+    const auto bobs = modes(cart, {.gravity = g});
+    CHECK(bobs.forward.size() == 0);
+    REQUIRE(bobs.other.size() == 5);
+    // 50 digits: the matrices of the Lagrangian in rotations and the cart's offset, mpmath
+    const double growth[] = {5.5013964911919557909, 10.180421418992271246, 15.038662375936563491, 20.297148443503030888,
+                             26.447269336992368467};
+    for (std::size_t k = 0; k < 5; ++k) CHECK(std::abs(bobs.other[k].growth_rate - growth[k]) <= 3e-16 * growth[k]);
+
+    const double k = 40 * M_PI * M_PI;
+    const Rig sprung(Chain<double>({plummet(g, 2.0)}), {.support = horizontal_spring(k, 10 * g)});
+    const auto m = modes(sprung, {.gravity = g});
+    REQUIRE(m.forward.size() == 2);
+    CHECK(std::abs(m.forward.angular_speed[0] - 2.21) <= 0.03);  // the load under a nearly firm trolley
+}
+
+TEST_CASE("a heavy column buckles at w L^3 = 7.8373474 EI: Greenhill (1881); the error falls as 1/N^2", "[linear]") {
+    double before = 0;
+    for (const Index n : {10, 20, 40}) {
+        const double a = 1.0 / static_cast<double>(n);
+        double stiff = 1, soft = 0.01;
+        for (int k = 0; k < 50; ++k) {
+            const double EI = (stiff + soft) / 2;
+            std::vector<Pin> pins(static_cast<std::size_t>(n), Pin{EI / a});
+            pins.back() = Pin{2 * EI / a};
+            const Rig column(Chain<double>::uniform_rods(n, 1.0, 1.0),
+                             {.posture = std::vector<Posture>(static_cast<std::size_t>(n), Posture::stands), .pins = pins});
+            (modes(column, {.count = 1}).other_available == 0 ? stiff : soft) = EI;
+        }
+        const double error = 7.8373473864390 - 1 / stiff;
+        CAPTURE(n, 1 / stiff);
+        CHECK(error > 0);
+        CHECK(error <= 7.8373474 * 0.0052 * 100 / static_cast<double>(n * n));
+        if (before > 0) CHECK(std::abs(before / error - 4) <= 0.02);
+        before = error;
+    }
+}
+
+TEST_CASE("what springs, dashpots and trolleys refuse", "[linear]") {
+    const Chain<double> chain({plummet(1.0, 1.0), plummet(2.0, 1.0)});
+    using Catch::Matchers::Contains;
+    const auto with = [&](Rigging rigging) { return Rig(chain, std::move(rigging)); };
+    CHECK_THROWS_WITH(with({.pins = {{.stiffness = 1}}}), Contains("pins must be empty or have one entry for each of the 2"));
+    CHECK_THROWS_WITH(with({.pins = {{.stiffness = 1}, {.damping = -2}}}),
+                      Contains("links[1]") && Contains("damping of the upper pin"));
+    CHECK_THROWS_WITH(with({.support = {.stiffness = 0, .radius = 2}}), Contains("no radius"));
+    CHECK_THROWS_WITH(with({.support = {.damping = 2}}), Contains("a firm one does not move its dashpot"));
+    CHECK_THROWS_WITH(with({.support = {.stiffness = -1}}), Contains("must not be negative"));
+    const Rig damped = with({.pins = {{.damping = 1}, {}}});
+    CHECK_THROWS_WITH(modes(damped), Contains("damped_modes"));
+    CHECK_THROWS_WITH(damped_modes(damped, {.first = 0}), Contains("first must be at least 1"));
+    CHECK_THROWS_WITH(damped_modes(damped, {.count = 0}), Contains("count must be at least 1"));
+    CHECK_THROWS_WITH(damped_modes(damped, {.gravity = -1}), Contains("gravity"));
+}
