@@ -28,6 +28,7 @@ ALLOWED = {
     "pencil/spectrum": {"numeric", "simd", "pencil"},
     "pencil/forced": {"numeric", "simd", "pencil"},
     "pencil/complex": {"numeric", "simd", "pencil"},
+    "pencil/damped": {"numeric", "pencil", "pencil/complex"},
     "linear": {"numeric", "simd", "system", "pencil", "pencil/batch", "pencil/condensed", "pencil/spectrum"}
     | {"pencil/forced", "pencil/complex"},
     "finite/balance": {"numeric", "simd", "system", "linear"},
@@ -56,6 +57,7 @@ PUBLIC = {
     "recurrence.hpp": "linear",
     "response.hpp": "questions",
     "swing.hpp": "questions",
+    "damped_modes.hpp": "questions",
     "sensitivity.hpp": "questions",
     "tune.hpp": "questions",
     "rig_modes.hpp": "questions",

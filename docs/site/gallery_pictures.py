@@ -5,7 +5,10 @@ import re
 from pathlib import Path
 from typing import Any
 
+import matplotlib
 from sphinx_gallery.scrapers import matplotlib_scraper
+
+from revchain.plots.style import STYLE
 
 FIRST = ["crane", "swing_carousel", "chair_o_plane", "troposkien", "pipe_from_ship", "whirling_chain_3d", "watch_chain"]
 
@@ -33,5 +36,6 @@ def picture_first(_: Any, name: str, source: list[str]) -> None:
 
 
 def setup(app: Any) -> dict[str, bool]:
+    matplotlib.rcParams.update(STYLE)
     app.connect("source-read", picture_first)
     return {"parallel_read_safe": True}

@@ -716,6 +716,25 @@ def misprints():
     return figure
 
 
+def damping():
+    """Exponents of three links while their dashpots grow."""
+    figure, [axes] = panels(3.4)
+    chain = rc.Chain(mass=1.0, length=[1.0, 1.0, 1.0])
+    found = [rc.modes(rc.Rig(chain, pins=rc.Pin(damping=float(d)))).exponent for d in np.geomspace(1e-3, 200, 3000)]
+    for mode in range(3):  # the fastest are the first that no longer swing
+        path = [s[s.imag > 0][mode] for s in found if np.count_nonzero(s.imag) > mode]
+        axes.plot(np.real(path), np.imag(path), color=BLUE)
+    axes.plot([-12, 0], [0, 0], color=RED)
+    free = rc.modes(chain).angular_speed
+    axes.plot(0 * free, free, "o", color="black", label="no dashpots")
+    for k, speed in enumerate(free, 1):
+        axes.text(0.15, speed, f"mode {k}", va="center")
+    axes.text(-9.5, 0.3, "only decays", color=RED, ha="center")
+    axes.set(xlim=(-12, 1.6), ylim=(-0.4, 9), xlabel="real part of $s$ (1/s): decay", ylabel="imaginary part (rad/s): swing")
+    print(f"damping: {len(found[0])} modes at first, {len(found[-1])} exponents at last")
+    return figure
+
+
 def unbalanced(system, height, y, m, printed):
     """Returns the residual of (21) for link m, divided by the sum of the absolute values of its terms; y[0], y[1], ... are pins."""
     W, a, h, l = (np.r_[np.nan, x] for x in (system.weight, system.length, system.centroid, system.pendulum_length))
@@ -737,7 +756,7 @@ def unbalanced(system, height, y, m, printed):
 
 PICTURES = [
     *(chain, link, section_1, section_2, section_3, section_4, section_5, section_6, section_7, section_8),
-    *(matrices, counts, completeness, stability, convergence, misprints),
+    *(matrices, counts, completeness, stability, convergence, misprints, damping),
 ]
 
 folder = Path(sys.argv[1] if len(sys.argv) > 1 else ".")

@@ -260,7 +260,7 @@ CHECKS = {
 
 
 def is_slow(path):
-    """Programs that draw the pictures of pages, and a chart of 1230 motions, which test_bell.py checks."""
+    """Programs that draw the pictures of pages, and a chart of a thousand motions, which test_bell.py checks."""
     return path.stem.startswith("draw_") or path.stem == "clapper_chart"
 
 

@@ -246,7 +246,7 @@ RigModes modes_by_discs(const Rig& rig, const RigRoots& roots, const RigModesOpt
             const double unit = std::ldexp(1.0, pencil.units.length_exponent);
             // In double words: std::complex divides by less accurate rules in some libraries.
             const std::complex<double> height(root.x * root.x);
-            const std::complex<double> speed(ComplexWord(pencil.pace) / root.x);
+            const std::complex<double> speed(pencil::ComplexWord(pencil.pace) / root.x);
             result.other.push_back({height * unit, speed, std::abs(speed.imag()),
                                     2 * bound * (1 + bound) + 8 * epsilon<double>()});
         }

@@ -142,6 +142,8 @@ def _of_height(name: str, of_speed: Callable[[Any], Any]) -> Callable[[Modes], N
 
 def _nodes(modes: Modes, name: str = "nodes") -> Any:
     """The places of each mode; of a cord they take memory in proportion to the number of the mode."""
+    if modes._is_damped:  # what crosses the axis moves
+        return tuple(np.empty(0) for _ in modes.number)
     if modes.number.size and modes.system._kind.endswith("cord"):
         refuse_beyond_memory(f"revchain.Modes.{name}", "the number of the last mode", int(modes.number[-1]), 8)
     return getattr(modes._found(), name)
@@ -240,7 +242,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
     )
     period: Field[Numbers] = Field(
         "Time of one revolution, s, shape (k,).",
-        _of_height("period", lambda speed: _signed_turn(speed) / np.abs(speed)),
+        _of_height("period", lambda speed: _over(_signed_turn(speed), np.abs(speed))),
         heading="period",
         unit="s",
     )
@@ -261,11 +263,12 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         heading="error bound",
     )
     nodes: Field[tuple[Numbers, ...]] = Field(
-        "For each mode, the distances from the free end along the chain at which it crosses the axis, excluding the support.",
+        "For each mode, the distances from the free end along the chain at which it crosses the axis, excluding the support. "
+        "With dashpots none: no point stays on the axis.",
         _nodes,
         axes=("node",),
         unit="m",
-        heading=lambda m: f"nodes (m from the {'lower' if m.system._kind.startswith('held') else 'free'} end)",
+        heading=lambda m: _heading_of_nodes(m),
         shown=lambda m: _texts(m.nodes),
     )
     exponent: Field[Complex] = Field(
@@ -309,7 +312,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
     )
     shape: Field[Numbers] = Field(
         "Offsets of the pins from the axis, shape (k, N + 1), free end first, support last. The largest magnitude of each mode "
-        "is 1, and the free end is positive. For a cord: offsets of the places `arc_length`, shape (k, 201); that of the free "
+        "is 1, and the free end is positive. With dashpots they are complex, and the largest is 1: the real part is the shape at "
+        "the instant when that pin is farthest out. For a cord: offsets of the places `arc_length`, shape (k, 201); that of the free "
         "end is 1. For a cord held at both ends the largest, at the lowest vertical point, is 1.",
         otherwise=lambda m: m.along(m.arc_length),
         axes=("pin",),
@@ -674,9 +678,16 @@ def rest(values: Numbers, second: Floats | None) -> Floats | None:
     return left
 
 
-def _over(number: float, values: Floats) -> Floats:
+def _heading_of_nodes(modes: Modes) -> str:
+    if modes._is_damped:
+        return ""
+    return f"nodes (m from the {'lower' if modes.system._kind.startswith('held') else 'free'} end)"
+
+
+def _over(number: Any, values: Any) -> Any:
+    """The quotient; infinite where the value is 0, of either sign."""
     with np.errstate(divide="ignore"):
-        return np.asarray(number / np.where(values == 0, -0.0, values))
+        return np.where(values == 0, np.inf, number / values)
 
 
 def _certificate(modes: Modes) -> Certificate | None:

@@ -15,7 +15,7 @@ from msgspec import UNSET, UnsetType, json
 from ..systems.chain import Chain
 from ..systems.cord import Cord
 from ..systems.held import Held
-from ..systems.rig import Displaced, Flywheel, Rig, Support
+from ..systems.rig import Displaced, Flywheel, Pin, Rig, Support
 from ..systems.units import si_value
 from . import tables
 from .error import Problem, SceneError
@@ -101,15 +101,18 @@ class Numbers:
             return math.nan
         return self.value(key, given, key, sign)
 
-    def read(self, table: Table | UnsetType) -> Given:
-        """All numbers given in the table, by key; what is heavy under the keys of masses, or else of weights."""
+    def read(self, table: Table | UnsetType, kind: str = "") -> Given:
+        """All numbers given in the table, by key; what is heavy under the keys of masses, or else of weights.
+
+        `kind` comes before the key in the name of the quantity, as in "pin_stiffness".
+        """
         found: Given = {}
         if isinstance(table, UnsetType):
             return found
         for name, sign, required in number_fields(type(table)):
             given = getattr(table, name)
             if given is not UNSET or required:
-                found[name] = self.value(name, given, name, sign)
+                found[name] = self.value(name, given, kind + name, sign)
         for prefix in ("", "tip_", "added_"):
             if hasattr(table, f"{prefix}mass"):
                 self._weigh(table, prefix, found)
@@ -237,7 +240,7 @@ def _check_joints(link: Link, tip: float, above: list[Link], numbers: Numbers) -
         return
     if not above:
         numbers.refuse("clamped", "there is no link above")
-    for name in ("standing", "flywheel", "displaced"):
+    for name in ("standing", "flywheel", "displaced", "pin"):
         if getattr(link, name) not in (False, UNSET):
             numbers.refuse(name, "must be given for the link above, to which this one is clamped")
     if max(link.repeat, *(each.repeat for each in above), 1) > 1:
@@ -277,7 +280,7 @@ def _rig(chain: Chain | None, scene: Tables, numbers: Numbers) -> Rig | None:
     repeats = [link.repeat for _, link in links]
     support = _support(scene.support, numbers.of("support"))
     heavy, added = numbers.heavy, f"added_{numbers.heavy}"
-    wheels, fluids = [], []
+    wheels, fluids, pins = [], [], []
     for (index, link), first in zip(links, accumulate(repeats, initial=0), strict=False):
         inside = numbers.of(f"links[{index}]")
         wheel = {heavy: 0.0, "radius_of_gyration": 0.0, "spin": 0.0}
@@ -286,6 +289,7 @@ def _rig(chain: Chain | None, scene: Tables, numbers: Numbers) -> Rig | None:
         if chain is not None:
             fluid |= {name: getattr(chain, name)[first] for name in ("centroid", "radius_of_gyration")}
         fluids.append(fluid | inside.of("displaced").read(link.displaced))
+        pins.append({"stiffness": 0.0, "damping": 0.0} | inside.of("pin").read(link.pin, "pin_"))
         if scene.fluid == "turning" and fluids[-1][added] > 0:
             inside.refuse("displaced", f"must have no {added} in a fluid that turns with the chain")
     if numbers.problems or chain is None:
@@ -304,6 +308,8 @@ def _rig(chain: Chain | None, scene: Tables, numbers: Numbers) -> Rig | None:
             if all(each.radius_of_gyration is UNSET for each in displaced):
                 del columns["radius_of_gyration"]  # that of the links, with all stored digits
             given["displaced"] = Displaced(**columns)
+        if any(link.pin is not UNSET for _, link in links):
+            given["pins"] = Pin(**_columns(pins, repeats))
         return Rig(chain, **given)
     except ValueError as error:
         numbers.problems.append(problem_of(error, "links" if links else "support", links))
@@ -313,8 +319,8 @@ def _rig(chain: Chain | None, scene: Tables, numbers: Numbers) -> Rig | None:
 def _support(table: tables.Support | UnsetType, numbers: Numbers) -> Given:
     """The arguments of a `Support`, from its table."""
     found = numbers.read(table)
-    if found.get(numbers.heavy, 0.0) > 0 and "stiffness" not in found:
-        numbers.refuse("stiffness", "is missing: what moves sideways needs a support that yields")
+    if found.get("damping", 0.0) > 0 and "stiffness" not in found and numbers.heavy not in found:
+        numbers.refuse("damping", "does not go with a firm support: give stiffness (0 for a trolley that rolls freely)")
     return found
 
 

@@ -73,10 +73,21 @@ class Displaced(Table, frozen=True):
     added_mass: Annotated[MaybeNotNegative, says("Mass of still fluid that moves with the link (kg).")] = UNSET
 
 
+class Pin(Table, frozen=True):
+    """The spring and the dashpot between a link and the one above, at the uppermost pin between link and vertical."""
+
+    stiffness: Annotated[MaybeNotNegative, says("Torque over the angle (N m/rad); relaxed in the straight chain.")] = UNSET
+    damping: Annotated[MaybeNotNegative, says("Torque over the rate of the angle (N m s/rad).")] = UNSET
+
+
 class Support(Table, frozen=True):
     """The support of the uppermost pin."""
 
-    stiffness: Annotated[MaybePositive, says("Sideways stiffness of the spring (N/m); firm if left out.")] = UNSET
+    stiffness: Annotated[
+        MaybeNotNegative,
+        says("Sideways stiffness of the spring (N/m). Left out: firm, or with a mass a trolley that rolls freely."),
+    ] = UNSET
+    damping: Annotated[MaybeNotNegative, says("Damping of a dashpot to the ground (N s/m).")] = UNSET
     weight: Annotated[MaybeNotNegative, says("Weight that moves sideways with the pin (N); or give mass.")] = UNSET
     mass: Annotated[MaybeNotNegative, says("Mass that moves sideways with the pin (kg); or give weight.")] = UNSET
     radius: Annotated[
@@ -87,7 +98,7 @@ class Support(Table, frozen=True):
 class Link(Table, frozen=True):
     """One link, or several equal ones. A link of mass 0 is a massless thread.
 
-    A link with `clamped` is part of the link above; `standing`, `flywheel` and `displaced` belong to that link.
+    A link with `clamped` is part of the link above; `standing`, `flywheel`, `displaced` and `pin` belong to that link.
     """
 
     length: Annotated[Positive, says("Distance between its pins (m).")]
@@ -114,6 +125,7 @@ class Link(Table, frozen=True):
     clamped: Annotated[bool, says("Whether it is locked in line with the link above as one rigid body.")] = False
     flywheel: Annotated[Flywheel | UnsetType, says("A wheel that spins about the axis of the link.")] = UNSET
     displaced: Annotated[Displaced | UnsetType, says("The fluid that it displaces.")] = UNSET
+    pin: Annotated[Pin | UnsetType, says("Spring and dashpot at its upper pin.")] = UNSET
 
 
 class Whole(Table, frozen=True):
@@ -331,8 +343,8 @@ class Tables(Table, frozen=True):
     def is_rigged(self) -> bool:
         """Whether the scene has more than a chain that hangs from a firm point on the axis."""
         links = [] if isinstance(self.links, UnsetType) else self.links
-        unlike = [link.standing or link.flywheel is not UNSET or link.displaced is not UNSET for link in links]
-        return self.support is not UNSET or any(unlike)
+        fitted = any(part is not UNSET for link in links for part in (link.flywheel, link.displaced, link.pin))
+        return self.support is not UNSET or fitted or any(link.standing for link in links)
 
     @property
     def is_held(self) -> bool:

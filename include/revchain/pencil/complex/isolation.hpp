@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/numeric/complex_words.hpp"
 #include "revchain/numeric/interval.hpp"
+#include "revchain/pencil/complex/word.hpp"
 #include "revchain/pencil/complex/roots_in_lanes.hpp"
 
 /// This header computes values of det Q with error bounds, and distances between approximate roots,

@@ -1,0 +1,210 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Free trolleys, springs and dashpots at pins: numbers with their data, laws, files, and what is refused.
+
+The exponents themselves are checked in quadruple precision by tests/cpp/damped_modes.cpp.
+"""
+
+import math
+import pickle
+
+import numpy as np
+import pytest
+from exact import near
+
+import revchain as rc
+
+G = 9.81
+
+
+def expm(matrix):
+    """exp of a matrix by its Taylor series after halving; double."""
+    halvings = max(0, int(np.ceil(np.log2(max(np.abs(matrix).sum(axis=1).max(), 1e-300)))) + 4)
+    small, term, total = matrix / 2**halvings, np.eye(len(matrix)), np.eye(len(matrix))
+    for k in range(1, 18):
+        term = term @ small / k
+        total = total + term
+    for _ in range(halvings):
+        total = total @ total
+    return total
+
+
+def test_the_load_under_a_free_trolley():
+    crane = rc.Rig(rc.Chain(mass=4000.0, length=10.0), support=rc.Support(mass=1000.0))
+    m = rc.modes(crane, gravity=G)
+    assert m.angular_speed == near([2.2147234590], rel=3e-11) and m.rigid == 1 and m.other_available == 0
+    assert rc.modes(crane).angular_speed == near([2.2143452757], rel=3e-11)
+    assert m.speed_error_bound[0] < 4e-16 and m.complete and "rolls freely" in str(m)
+    assert m.shape[0] == near([0.25, -1.0], rel=1e-15)  # the centre of mass stays
+    assert rc.count_modes(crane, angular_speed=[2.2, 2.3], gravity=G).tolist() == [0, 1]
+    same = rc.Rig(rc.Chain(mass=4000.0, length=10.0), support=rc.Support(stiffness=0, mass=1000.0))
+    assert same == crane and rc.modes(same).angular_speed == rc.modes(crane).angular_speed
+
+
+def test_a_trolley_on_a_soft_spring_tends_to_the_free_one():
+    chain = rc.Chain(mass=[3.0, 1.0, 2.0], length=[1.0, 0.5, 0.7])
+    free = rc.modes(rc.Rig(chain, support=rc.Support(mass=2.0)))
+    assert len(free) == 3
+    soft = rc.modes(rc.Rig(chain, support=rc.Support(mass=2.0, stiffness=1e-9)))
+    assert len(soft) == 4 and soft.angular_speed[0] < 1e-4
+    assert soft.angular_speed[1:] == near(free.angular_speed, rel=1e-9)
+
+
+def test_five_bobs_upright_on_a_cart():
+    bobs = rc.Rig(rc.Chain(mass=[0.002] * 5, length=0.2), support=rc.Support(mass=0.002), inverted=True)
+    m = rc.modes(bobs, gravity=G)
+    assert len(m) == 0 and m.rigid == 1
+    growth = [5.5013964911919557909, 10.180421418992271246, 15.038662375936563491, 20.297148443503030888, 26.447269336992368467]
+    assert m.other.growth_rate == near(growth, rel=4e-16)
+
+
+def test_a_pendulum_with_a_dashpot():
+    rig = rc.Rig(rc.Chain(mass=1.0, length=1.0), pins=rc.Pin(damping=0.2))
+    m = rc.modes(rig, gravity=G)
+    assert m.exponent == near([complex(-0.1, math.sqrt(G - 0.01))], rel=2e-16)
+    assert m.angular_speed == near([math.sqrt(G - 0.01)], rel=2e-16)
+    assert (m.decay_time[0], m.damping_ratio[0]) == near((10.0, 0.1 / math.sqrt(G)), rel=4e-16)
+    assert m.period == near([2 * math.pi / math.sqrt(G - 0.01)], rel=4e-16)
+    assert m.complete and m.status == "success" and m.speed_error_bound[0] < 2e-16
+    strong = rc.modes(rc.Rig(rc.Chain(mass=1.0, length=1.0), pins=rc.Pin(damping=10.0)), gravity=G)
+    root = math.sqrt(25 - G)
+    assert strong.exponent == near([root - 5, -root - 5], rel=4e-16)
+    assert (strong.angular_speed.tolist(), strong.damping_ratio.tolist()) == ([0.0, 0.0], [1.0, 1.0])
+    assert np.isinf(strong.period).all() and "only decays" in str(strong)
+
+
+def test_a_damped_double_pendulum_against_its_motion():
+    """The state after a while is the sum of the modes: first-order form, exp of a matrix."""
+    mass, length, stiffness, damping = [1.0, 2.0], [0.7, 1.1], [0.5, 3.0], [0.3, 0.8]
+    m = rc.modes(rc.Rig(rc.Chain(mass=mass, length=length), pins=rc.Pin(stiffness=stiffness, damping=damping)), gravity=G)
+    (a, b), (p, q) = length, mass
+    # rotations of the lower and the upper link
+    inertia = np.array([[p * a * a, p * a * b], [p * a * b, (p + q) * b * b]])
+    bend = np.array([[1.0, -1.0], [-1.0, 1.0]])
+    top = np.diag([0.0, 1.0])
+    K = np.diag([p * G * a, (p + q) * G * b]) + stiffness[0] * bend + stiffness[1] * top
+    C = damping[0] * bend + damping[1] * top
+    A = np.block([[np.zeros((2, 2)), np.eye(2)], [-np.linalg.solve(inertia, K), -np.linalg.solve(inertia, C)]])
+    assert sorted(m.exponent, key=abs) == near(sorted(np.linalg.eigvals(A)[::2], key=abs), rel=1e-13)
+    to_rotation = np.array([[1 / a, -1 / a], [0, 1 / b]])
+    for s, shape in zip(m.exponent, m.shape, strict=True):
+        r = to_rotation @ shape[:2]
+        state = np.concatenate([r, s * r])
+        assert expm(A * 0.8) @ state == near(np.exp(0.8 * s) * state, rel=1e-12)
+
+
+def test_dashpots_at_wheels_keep_the_senses_apart():
+    rig = rc.Rig(
+        rc.Chain(mass=[1.0, 1.0], length=1.0), flywheels=rc.Flywheel(momentum=[0.8, -0.2]), pins=rc.Pin(damping=0.1)
+    )
+    m = rc.modes(rig)
+    assert m.has_momentum and len(m) == 4 and m.complete
+    assert (m.direction == np.sign(m.angular_speed)).all() and (m.exponent.real < 0).all()
+    less = rc.modes(rc.Rig(rig.chain, flywheels=rig.flywheels, pins=rc.Pin(damping=1e-9)))
+    assert np.sort(less.angular_speed) == near(np.sort(rc.modes(rc.Rig(rig.chain, flywheels=rig.flywheels)).angular_speed), rel=1e-9)
+
+
+@pytest.mark.parametrize("links", [10, 40])
+def test_a_hanging_cable_with_bending_stiffness(links):
+    """Springs EI/a at the pins: far below the stiffness of the weight nothing changes, far above a clamped rod whirls."""
+    a, EI = 1.0 / links, 1e4
+    spring = np.full(links, EI / a)
+    spring[-1] *= 2
+    m = rc.modes(rc.Rig(rc.Chain.uniform_rods(links, length=1.0, mass=1.0), pins=rc.Pin(stiffness=spring)), 2)
+    beam = np.array([1.8751040687, 4.6940911330]) ** 2 * math.sqrt(EI)  # Euler and Bernoulli: a cantilever
+    assert m.angular_speed == near(beam, rel=1.2 / links)
+    assert m.complete and m.method == "counts"
+
+
+def test_files_words_and_equality(tmp_path):
+    rig = rc.Rig(
+        rc.Chain(mass=[1.0, 2.0], length=1.0, names=["load", "hook"]),
+        support=rc.Support(stiffness=50.0, damping=3.0, mass=1.0),
+        pins=rc.Pin(stiffness=[0.0, 2.0], damping=0.5),
+    )
+    assert pickle.loads(pickle.dumps(rig)) == rig == rc.Rig.from_dict(rig.to_dict())
+    assert "springs at 1 pin, dashpots at 2 pins" in repr(rig) and "damped by 3 N s/m" in rig.describe()
+    m = rc.modes(rig)
+    assert pickle.loads(pickle.dumps(m)) == m
+    for name in ("m.npz", "m.nc"):
+        m.save(tmp_path / name)
+        assert rc.load(tmp_path / name) == m
+    table = m.to_dataframe()
+    assert {"exponent", "damping_ratio", "decay_time"} <= {name.split("[")[0] for name in table.columns} | {"exponent"}
+    assert "damping ratio" in str(m) and "decay time (s)" in str(m)
+    assert m[0].decay_time == m.decay_time[0]
+    plain = rc.modes(rig.chain)
+    assert plain.exponent.tolist() == [1j * n for n in plain.angular_speed] and (plain.damping_ratio == 0).all()
+    assert np.isinf(plain.decay_time).all() and "damping" not in str(plain)
+
+
+def test_pins_are_data_that_can_be_varied():
+    rig = rc.Rig(rc.Chain(mass=[1.0, 2.0], length=1.0), pins=rc.Pin(stiffness=2.0))
+    target = 1.05 * rc.modes(rig).angular_speed[0]
+    tuned = rc.tune(rig, mode=1, vary="pins[1].stiffness", angular_speed=target)
+    assert rc.modes(tuned.system).angular_speed[0] == near(target, rel=1e-13)
+    assert tuned.system.pins.stiffness[1] == near(tuned.value, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("ask", "words"),
+    [
+        (lambda: rc.Pin(damping=-1), "damping must not be negative, got -1"),
+        (lambda: rc.Pin(stiffness=math.inf), "stiffness must be finite"),
+        (lambda: rc.Support(damping=3), "damping does not go with a firm support"),
+        (lambda: rc.Support(stiffness=-1), "stiffness must not be negative, got -1"),
+        (lambda: rc.Support(mass=1, stiffness=math.inf), "give a stiffness .0 for a trolley"),
+        (lambda: rc.Support(mass=1, radius=2), "has no radius"),
+        (lambda: rc.Rig(rc.Chain(mass=[1, 2], length=1), pins=rc.Pin(stiffness=[1, 2, 3])), "one for each of the 2 links"),
+        (lambda: rc.Rig(rc.Chain(mass=1, length=1), pins=3), "pins must be a revchain.Pin"),
+    ],
+)
+def test_what_is_wrong_is_said(ask, words):
+    with pytest.raises((ValueError, TypeError), match=words):
+        ask()
+
+
+TROLLEY = rc.Rig(rc.Chain(mass=[4.0, 1.0], length=1.0), support=rc.Support(mass=2.0))
+SPRINGS = rc.Rig(rc.Chain(mass=[4.0, 1.0], length=1.0), pins=rc.Pin(stiffness=2.0))
+DASHPOTS = rc.Rig(rc.Chain(mass=[4.0, 1.0], length=1.0), pins=rc.Pin(damping=0.3))
+
+
+@pytest.mark.parametrize("rig", [TROLLEY, SPRINGS, DASHPOTS], ids=["trolley", "springs", "dashpots"])
+def test_what_cannot_be_found_yet_is_refused_and_not_wrong(rig):
+    with pytest.raises(ValueError, match="cannot be found for a rig with"):
+        rc.response(rig, angular_speed=[2.0], support_radius=0.1)
+    with pytest.raises(ValueError, match="cannot be found for a rig with"):
+        rc.swing(rig, [0.0, 1.0], offset=[0.1, 0.0])
+    if rig is not DASHPOTS:  # at pins that do not move they have no effect on a steady shape
+        with pytest.raises(ValueError, match="cannot be found for a rig with"):
+            rc.steady_shapes(rig, angular_speed=5.0)
+        with pytest.raises(ValueError, match="cannot be found for a rig with"):
+            rc.branches(rig, max_angular_speed=8.0)
+    else:
+        shapes = rc.steady_shapes(rig, angular_speed=5.0)
+        assert shapes[0] == rc.steady_shapes(rc.Rig(rig.chain), angular_speed=5.0)[0] or len(shapes)
+        with pytest.raises(ValueError, match="cannot be found for a rig with dashpots"):
+            shapes[0].stability()
+    if rig is not TROLLEY:
+        with pytest.raises(ValueError, match="cannot be found for a rig with"):
+            _ = rc.modes(rig).sensitivity
+
+
+def test_windows_and_proofs_of_damped_modes_are_refused():
+    with pytest.raises(ValueError, match="a window is for a system without dashpots"):
+        rc.modes(DASHPOTS, angular_speed=(1.0, 2.0))
+    with pytest.raises(ValueError, match="certify is for a Rig without dashpots"):
+        rc.modes(DASHPOTS, certify=True)
+    with pytest.raises(ValueError, match="dashpots"):
+        rc.count_modes(DASHPOTS, angular_speed=1.0)
+    with pytest.raises(ValueError, match="first must be from 1 to 2"):
+        rc.modes(DASHPOTS, 1, first=3)
+
+
+def test_sensitivities_under_a_trolley_against_differences():
+    m = rc.modes(TROLLEY)
+    step = 1e-6
+    for name, change in (("mass", {"mass": [4.0 + step, 1.0]}), ("length_in_proportion", {"length": [1.0 + step, 1.0]})):
+        data = {"mass": [4.0, 1.0], "length": 1.0} | change
+        moved = rc.modes(rc.Rig(rc.Chain(**data), support=rc.Support(mass=2.0))).angular_speed
+        rates = getattr(m.sensitivity, name)[:, 0]
+        assert rates == near((moved - m.angular_speed) / step, rel=1e-4)
