@@ -21,7 +21,7 @@ def drawn(scene, question, found):
     """The picture of the first answer: of a broomstick with its lean."""
     if question == "modes" and not len(found) and "response" in scene.asks:
         return found.plot(carried=scene.response())
-    return found.plot()
+    return found.plot(speed="rpm") if question == "shapes" else found.plot()
 
 
 for name in NAMES:
@@ -30,6 +30,5 @@ for name in NAMES:
     axes = drawn(scene, question, found)
     count, what = (len(found), question.removesuffix("s")) if question != "swing" else (found.time.size, "time")
     axes.set_title(scene.title)
-    axes.figure.set_figheight(min(5.0, axes.figure.get_figheight()))
     print(f"{scene.title}: {count} {what}{'s' * (count != 1)},", end=" ")
     save(axes.figure, f"scene_{name}")

@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import revchain as rc
+from revchain.plots.modes import BACKWARD, FORWARD
 from revchain.plots.programs import COLOURS, save
 
 STUDIES = Path(__file__).resolve().parent.parent / "studies"
@@ -21,13 +22,14 @@ panels = figure.subplot_mosaic([["spun", "ratio"], ["scatter", "scatter"]], heig
 spun, ratio, scatter = (panels[name] for name in ("spun", "ratio", "scatter"))
 
 wheels = rc.sweep(STUDIES / "wheels_spun_up.toml")
-for sense, colour in (("forward", COLOURS[0]), ("backward", COLOURS[1])):
-    speeds = wheels[f"{sense}_angular_speed"].to_numpy() * RPM
+for sense, way, colour in (("forward", 1, FORWARD), ("backward", -1, BACKWARD)):
+    speeds = way * wheels[f"{sense}_angular_speed"].to_numpy() * RPM
     spun.plot(wheels["spin"] * RPM, speeds, color=colour)
     print(f"twelve wheels at 600 rpm, {sense}: " + ", ".join(f"{speed:.2f}" for speed in speeds[-1]) + " rpm")
-spun.text(390, 195, "forward", color=COLOURS[0], ha="right")
-spun.text(590, -18, "backward", color=COLOURS[1], ha="right")
-spun.set(title="Twelve bicycle wheels spun up", xlabel="spin (rpm)", ylabel="whirl speed (rpm)", ylim=(-25, 250))
+spun.text(390, 195, "forward", color=FORWARD, ha="right")
+spun.text(590, -50, "backward", color=BACKWARD, ha="right")
+spun.axhline(0, color="0.6", linewidth=0.8)
+spun.set(title="Twelve bicycle wheels spun up", xlabel="spin (rpm)", ylabel="whirl speed (rpm)", ylim=(-75, 250))
 
 weights = rc.sweep(STUDIES / "two_weights.toml")
 speed = weights["angular_speed"]
@@ -45,9 +47,10 @@ crane = rc.sweep(STUDIES / "crane_scatter.toml")
 for k, (name, at) in enumerate((("first", (1.9, 0.24)), ("second", (4.7, 0.07)))):
     periods = 2 * np.pi / crane["angular_speed"].to_numpy()[:, k]
     deviation = 100 * (periods / periods.mean() - 1)
-    scatter.hist(deviation, np.linspace(-15, 15, 61), density=True, histtype="stepfilled", color=COLOURS[k], alpha=0.6)
+    style = {"histtype": "step", "linewidth": 1.8} if k else {"histtype": "stepfilled", "alpha": 0.6}
+    scatter.hist(deviation, np.linspace(-15, 15, 61), density=True, color=COLOURS[k], **style)
     scatter.text(*at, f"{name} mode, mean {periods.mean():.2f} s", color=COLOURS[k])
     print(f"crane, {name} mode: period {periods.mean():.3f} s, deviation {periods.std():.3f} s")
-scatter.set(title="20,000 cranes, data known to a few per cent", xlabel="deviation of the period from its mean (%)", yticks=[])
+scatter.set(title="One crane, data varied 20,000 times by a few per cent", xlabel="deviation of the period from its mean (%)", yticks=[])
 scatter.spines["left"].set_visible(False)
 save(figure, "studies")

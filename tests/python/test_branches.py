@@ -127,7 +127,7 @@ def test_pictures():
     pytest.importorskip("matplotlib")
     diagram = rc.branches(plummets(3), max_angular_speed=5.0, gravity=1.0)
     ax = diagram.plot()
-    named = ["1 half wave", "2 half waves", "3 half waves", "isolated, from\nthe speed above", "fold"]
+    named = ["1 half wave", "2 half waves", "3 half waves", "isolated: starts\nat the dotted line", "fold"]
     assert [text.get_text() for text in ax.get_legend().get_texts()] == named
     (above,) = ax.child_axes  # speeds of births stand above the frame: no label hides a loop
     assert [text.get_text() for text in above.get_xticklabels()] == ["3.904"] and len(ax.texts) == 0

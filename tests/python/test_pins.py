@@ -137,6 +137,15 @@ def test_files_words_and_equality(tmp_path):
     assert np.isinf(plain.decay_time).all() and "damping" not in str(plain)
 
 
+def test_a_mass_is_fitted_through_springs_and_dashpots():
+    """Speeds of a rig with known data give the data back."""
+    for pins in (rc.Pin(stiffness=2.0), rc.Pin(stiffness=2.0, damping=0.3)):
+        true = rc.Rig(rc.Chain(mass=[1.1, 2.0], length=1.0), pins=pins)
+        speeds = rc.modes(true).angular_speed
+        found = rc.fit(rc.Rig(rc.Chain(mass=[1.0, 2.0], length=1.0), pins=pins), dict(enumerate(speeds, 1)), vary="links[0].mass")
+        assert found.system.chain.mass == near([1.1, 2.0], rel=1e-9)
+
+
 def test_pins_are_data_that_can_be_varied():
     rig = rc.Rig(rc.Chain(mass=[1.0, 2.0], length=1.0), pins=rc.Pin(stiffness=2.0))
     target = 1.05 * rc.modes(rig).angular_speed[0]
@@ -185,6 +194,10 @@ def test_what_cannot_be_found_yet_is_refused_and_not_wrong(rig):
         with pytest.raises(ValueError, match="cannot be found for a rig with dashpots"):
             shapes[0].stability()
     if rig is not TROLLEY:
+        with pytest.raises(ValueError, match="not written yet"):
+            rc.to_mjcf(rig)
+        with pytest.raises(ValueError, match="cannot be found for a rig with"):
+            rc.modes(rig).uncertainty(mass="1 %")
         with pytest.raises(ValueError, match="cannot be found for a rig with"):
             _ = rc.modes(rig).sensitivity
 

@@ -4,6 +4,7 @@
 import numpy as np
 import pytest
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
 from matplotlib.patches import Ellipse, Polygon
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -72,7 +73,7 @@ def test_a_long_chain_is_thinned_and_keeps_its_extremes():
     for mode in (1, 40):
         curve, offset = curve_of(result.plot(modes=[mode]), mode).get_xdata(), SPACING + result.shape[mode - 1]
         assert len(curve) <= 2100
-        assert curve.max() == offset.max() and curve.min() == offset.min()
+        assert [curve.max(), curve.min()] == pytest.approx([offset.max(), offset.min()], rel=1e-15)
         signs = np.sign(curve[:-1] - SPACING)
         assert (signs[1:] != signs[:-1]).sum() == mode - 1
 
@@ -226,14 +227,14 @@ def test_labels_with_speeds(unit):
     modes = rc.modes(THREE)
     expected = [f"mode {k + 1}\n{UNITS[unit](modes.angular_speed[k]):#.4g} {unit}" for k in range(3)]
     axes = modes.plot(speed=unit, carried=carried)
-    assert texts(axes) == ["at rest", f"carried round\n{said}", *expected] and clipped(axes) == []
+    assert texts(axes) == ["at rest\n", f"carried round\n{said}", *expected] and clipped(axes) == []
 
 
 def test_modes_without_a_unit_say_two():
     modes = rc.modes(TOP)
     assert modes.angular_speed.min() < 0  # the period of a backward mode is positive
     for text, speed in zip(texts(modes.plot())[1:], modes.angular_speed, strict=True):
-        numbers = [f"{speed * 30 / np.pi:#.4g} rpm", f"{2 * np.pi / abs(speed):#.4g} s"]
+        numbers = [f"{speed * 30 / np.pi:#.4g} rpm".replace("-", "\N{MINUS SIGN}"), f"{2 * np.pi / abs(speed):#.4g} s"]
         assert text.splitlines()[2:] == numbers
 
 
@@ -260,13 +261,30 @@ def test_other_units_are_refused(thing, wrong):
 
 
 def test_bodies_are_drawn_in_the_forms_of_their_names():
-    """A bell in true height, about its centre of gravity, with its axle at the pin; a person up from his feet."""
+    """A bell below its axle, its clapper about the centre of gravity; a person up from his feet, as wide as in life."""
     links = {"length": [0.65, 0.15], "centroid": [0.52, 0.05], "radius_of_gyration": [0.2, 0.36]}
     axes = rc.Chain(mass=[18.0, 500.0], names=["clapper", "church bell"], **links).plot()
-    (bell,) = (patch.get_xy() for patch in axes.patches if isinstance(patch, Polygon))
-    assert bell[:, 1].max() == pytest.approx(0.05 + 0.92 * 0.36) and bell[:, 1].min() == pytest.approx(0.05 + (0.92 - 2.2) * 0.36)
-    assert bell[:, 0].min() == pytest.approx(-bell[:, 0].max())
+    bell = max((patch.get_xy() for patch in axes.patches if isinstance(patch, Polygon)), key=len)
+    assert [bell[:, 1].min(), bell[:, 1].max()] == pytest.approx([0.14 * 0.36, 2.511 * 0.36])
+    assert bell[:, 0].min() == pytest.approx(-bell[:, 0].max()) and np.abs(bell[[0, -2]]).min() == 0
+    [ball] = [patch for patch in axes.patches if isinstance(patch, Ellipse)]
+    assert ball.get_center()[1] == pytest.approx(0.15 + 0.52)
+    FigureCanvasAgg(axes.figure).draw()
+    assert ball.get_window_extent().width == pytest.approx(ball.get_window_extent().height)
     man = rc.Rig(rc.Chain(mass=[75.0], length=1.75, centroid=1.0, radius_of_gyration=0.48, names=["man"]), inverted=True).plot()
     levels = [patch.get_center()[1] for patch in man.patches if isinstance(patch, Ellipse)]
-    assert levels == pytest.approx([0.64 * 1.75, 0.9 * 1.75])
+    assert levels == pytest.approx([0.64 * 1.75, 0.91 * 1.75])
     assert len(rc.Chain(mass=[1.0, 2.0], length=1.0).plot().patches) == 0
+
+
+def test_rods_are_bars_from_end_to_end_and_rings_are_nodes():
+    """Greenhill's jointed rod goes on above its pin, at rest and in each mode; other bodies are no bars."""
+    found = rc.modes(rc.Chain(mass=[0.36, 0.84], length=[0.36, 0.49], centroid=[0.18, 0.07], pendulum_length=[0.24, 0.91]))
+    axes = found.plot()
+    [bars] = [each for each in axes.collections if isinstance(each, LineCollection) and each.get_linewidth()[0] == 6]
+    np.testing.assert_allclose([path.vertices[:, 1] for path in bars.get_paths()], [[0.49, 0.85], [-0.35, 0.49]])
+    assert sum(line.get_ydata()[-1] == pytest.approx(-0.35) for line in axes.lines) == 2
+    assert "rings: nodes" in axes.get_xlabel() and "rings" not in found.plot(modes=[1]).get_xlabel()
+    floats = rc.modes(rc.Rig(rc.Chain(mass=[17.7] * 3, length=2.0), inverted=True, displaced=rc.Displaced(mass=43.0)))
+    rings = [line.get_ydata() for line in floats.plot().lines if line.get_gid() == "nodes"]
+    np.testing.assert_allclose(np.concatenate(rings), 6.0 - np.concatenate([*floats.nodes]))

@@ -16,7 +16,7 @@ from revchain.scenes import tables as hung
 from revchain.scenes.tables import QUESTIONS, Ask, AskModes, Link, Spread, UniformChain
 from revchain.scenes.scene import Scene, json_schema
 
-_HANGING = ("Link", "UniformChain", "TaperedChain", "Cord", "Support", "Flywheel", "Displaced", "Held", "End")
+_HANGING = ("Link", "UniformChain", "TaperedChain", "Cord", "Support", "Flywheel", "Displaced", "Pin", "Held", "End")
 
 ONE = {"mass": 1.0, "length": 1.0}
 
@@ -282,7 +282,7 @@ def test_ends_on_arms_and_springs():
     ends = {"lower": rc.Support(stiffness=2000.0, mass=0.3), "upper": rc.Support(radius=-0.5)}
     assert made.system() == rc.Held(rc.Scene.from_dict(RODS).system(), span=0.6, **ends)
     for held, message in (
-        ({"span": 0.6, "lower": {"mass": 0.3}}, r"held\.lower\.stiffness: is missing"),
+        ({"span": 0.6, "lower": {"mass": 0.3}}, r"held\.lower: end must be firm or on a spring"),
         ({"span": 0.6, "upper": {"radius": 30.0}}, r"held\.span: the ends must be nearer"),
         ({"tension": 200.0, "upper": {"radius": 0.1}}, r"held\.upper: end must be on the axis under a tension"),
         ({"span": 0.6, "upper": {"stiffness": -1.0}}, r"held\.upper\.stiffness"),

@@ -308,7 +308,7 @@ def test_plots():
     assert axes.get_xlabel() == "distance from axis (m)"
     drawn = [line.get_xydata() for line in axes.lines]
     for shape in found:
-        points = np.column_stack([shape.offset, shape.height])
+        points = np.column_stack([shape.offset, -shape.height])  # depths
         assert any(np.array_equal(points, line) for line in drawn if line.shape == points.shape)
     assert found[0].plot(axes) is axes
     axes.figure.canvas.draw()

@@ -47,7 +47,10 @@ def rpm(speed):
 
 figure, axes = plt.subplots(figsize=(8, 4), layout="constrained")
 print("rider (kg)  chair at 12 rpm (m)  tension (N)  limit speed (rpm)  isolated from (rpm)  its shapes")
-for k, mass in enumerate((0, 40, 80, 120, 130)):
+for mass, colour, *place in (
+    (0, "#4f97c4", 19.5, 7.6), (40, "#2a82b8", 20.6, 10.4), (80, "#00629c", 19.3, 13.8),
+    (120, "#00466f", 16.5, 14.1), (130, "#002a43", 13.6, 13.8),
+):  # fmt: skip
     rig = with_rider(mass)
     shape = rc.steady_shape(rig, angular_speed="12 rpm")
     assert shape.stability().verdict == "minimum"
@@ -58,13 +61,13 @@ for k, mass in enumerate((0, 40, 80, 120, 130)):
     verdicts = ", ".join(dict.fromkeys(w.verdict for b in isolated for w in b.stability_windows()))
     print(f"{mass:10} {shape.offset[0]:20.3f} {shape.tension[-1]:12.1f} {limit:18.2f} {born:>20}  {verdicts or '-'}")
     for branch in diagram:
-        style, label = ("-", f"rider of {mass} kg") if branch.birth == "rest" else ("--", None)
-        axes.plot(rpm(branch.angular_speed), branch.tip_radius, style, color=f"C{k}", label=label)
-axes.set(xlabel="speed (rpm)", ylabel="offset of the chair from the axis (m)", ylim=(-20, 40))
-axes.plot([], [], "--", color="0.3", label="isolated branch:\nbeyond the axis")
+        style = "-" if branch.birth == "rest" else "--"
+        axes.plot(rpm(branch.angular_speed), branch.tip_radius, style, color=colour)
+    axes.text(*place, f"{mass} kg" if mass else "empty chair", color=colour)
+axes.set(xlabel="speed (rpm)", ylabel="distance of the chair from axis (m)", ylim=(-10, 15))
+axes.text(20.8, -5, "dashed: isolated,\nchair beyond the axis", ha="right")
 axes.axhline(0, color="0.6", linestyle="-.", linewidth=0.8)
-axes.set_title("How far a heavy rider takes the chair out")
-axes.legend()
+axes.set_title("The mast yields: the heavier the rider, the farther out the chair goes")
 plt.show()
 
 # %%

@@ -44,23 +44,24 @@ late, early = np.array([jump(joint) for joint in joints]).T
 steep, least, most = (np.full(joints.size, bell) for bell in (1.79, 0.8, 2.4))  # above 1.79 the angle changes fast
 parts = (
     (steep, least, [100, 120, 140], [(0.08, 1.2), (0.2, 1.3), (0.45, 1.2)]),
-    (steep, late, [100, 120, 140, 160, 200], [(0.35, 1.88), (0.55, 2.08)]),
+    (steep, late, [160, 200], [(0.35, 1.88), (0.5, 2.1)]),
     (early, most, [30, 60, 90], [(0.25, 2.25), (0.22, 2.02), (0.12, 1.86)]),
 )
 figure, axes = plt.subplots(figsize=(6, 4.6), layout="constrained")
-axes.set_facecolor("#b9d7ec")
-axes.fill_between(joints, early, most, color="#e4f0f8")
+axes.set_facecolor("#cfe4f4")
+axes.fill_between(joints, early, most, color="#fbf3d0")
 for start, end, levels, places in parts:
     bells = start + (end - start) * np.linspace(0, 1, 16)[:, np.newaxis] ** 2  # rows, closest at the start
     angles = [[angle(joint, bell) for joint, bell in zip(joints, row)] for row in bells]
     chart = np.broadcast_to(joints, bells.shape), bells, angles
-    axes.contourf(*chart, levels=[180, 360], colors="#fbc48d")
+    axes.contourf(*chart, levels=[180, 360], colors="#f7c59a")
     lines = axes.contour(*chart, levels=levels, colors="0.4", linewidths=0.7)
     axes.clabel(lines, fmt=lambda a: f"{min(a, 360 - a):.0f}°", manual=places)
 axes.plot(joints, early, color="black", linewidth=2)
 axes.plot(joints, 1 + joints, color="0.2", linestyle="--", linewidth=1)
 axes.text(0.24, 1.12, "swing as one piece", rotation=15)
-for words, *at in (("leading side,\nearly", 0.04, 2.25), ("leading side, late", 0.2, 1.55), ("trailing side", 0.46, 2)):
+axes.text(0.165, 1.7, "thick line: it just misses")
+for words, *at in (("leading side,\nearly", 0.04, 2.25), ("leading side, late", 0.2, 1.55), ("trailing side", 0.42, 1.98)):
     axes.text(*at, words, size="large", weight="bold")
 axes.set_title("First blow of the clapper: side, and angle of the bell past its lowest position")
 axes.set(xlabel="axle to clapper pin / clapper pendulum length", xlim=(0.02, 0.6))
@@ -74,7 +75,7 @@ plt.show()
 # motion of bell and clapper, from the balance, mouth up, to the first blow.
 #
 # The lines have the angle of the bell at that blow, in degrees beyond its lowest position. At the
-# black line the angle jumps: below it the clapper comes close to the leading side, misses it, and
+# thick line the angle jumps: below it the clapper comes close to the leading side, misses it, and
 # strikes later. On the dashed line bell and clapper swing as one piece while the clapper is in the
 # middle of the bell (Greenhill 1908, section 8 (16)).
 

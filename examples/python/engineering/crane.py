@@ -25,10 +25,10 @@ for axes, name, shape, period in zip(panels, ("slower", "faster"), modes.shape, 
     axes.plot([-6, -6, 5], [21, 0, 0], color="0.3", linewidth=5)
     axes.plot([0, 0], [0, 20], color="0.6", linestyle="-.", linewidth=0.8, zorder=0)
     axes.plot(0, 0, "s", color="black", markersize=10, zorder=3)
-    for offset, strength in ((-3 * shape, 0.25), (3 * shape, 1.0)):
-        axes.plot(offset, [16, 10, 0], color="C0", linewidth=2, alpha=strength)
-        axes.plot(offset[1], 10, "o", color="C0", markersize=9, markeredgewidth=0, alpha=strength)
-        axes.plot(offset[0], 16, "s", color="C1", markersize=17, markeredgewidth=0, alpha=strength)
+    for offset, rope, load in ((-3 * shape, "#bfdcec", "#f4d7bf"), (3 * shape, "C0", "C1")):
+        axes.plot(offset, [16, 10, 0], color=rope, linewidth=2)
+        axes.plot(offset[1], 10, "o", color=rope, markersize=9)
+        axes.plot(offset[0], 16, "s", color=load, markersize=17, markeredgecolor="white")
     axes.axis("off")
     axes.set(title=f"{name} mode: {period:.2f} s", xlim=(-6.5, 7.5), ylim=(21, -2), aspect="equal")
 for text, *place in (("trolley", 1, 1.8), ("rope", 1.8, 6), ("hook\nblock", 3, 11), ("load", 4.7, 16.5)):

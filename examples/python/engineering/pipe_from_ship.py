@@ -39,7 +39,7 @@ axes.plot([1.6, 2, 2.4], [-35, -110, -35], color="0.3", linewidth=2)
 for number, period in enumerate((6.0, 8.0, 13.0)):
     found = rc.response(rig, angular_speed=2 * np.pi / period, support_radius=SWAY)
     axes.plot(found.offset, depth, linewidth=2.5, color=f"C{number}")
-    axes.plot(found.offset[0], depth[0], "s", markersize=9, color=f"C{number}")
+    axes.plot(found.offset[0], depth[0], "s", markersize=10, color=f"C{number}", markeredgecolor="black", zorder=4)
     left = found.offset.argmin()
     axes.text(found.offset[left] - 0.2, depth[left], f"waves of {period:g} s", color=f"C{number}", ha="right")
 axes.text(1.4, 618, "valve block", color="0.3")

@@ -92,9 +92,9 @@ print("two more shapes appear at", *np.round(born, 4), "turns a second")
 
 branches = rc.branches(carried, max_angular_speed=2 * np.pi * 3.2)
 figure, (curve, side) = panels(2, [1, 1.8], height=4)
-for k, (line, place) in enumerate(zip(branches, [(1.3, 0.25), (1.3, -0.2), (1.6, 0.1)], strict=True)):
+for k, (line, place) in enumerate(zip(branches, [(1.3, 0.25), (1.3, -0.2), (1.35, 0.08)], strict=True)):
     curve.plot(line.angular_speed / (2 * np.pi), line.tip_radius, color=COLOURS[k], linewidth=2.5)
-    curve.text(*place, f"from {born[k - 1]:.2f}" if k else "from rest", color=COLOURS[k])
+    curve.text(*place, f"from {born[k - 1]:.2f}\nturns/s" if k else "from rest", color=COLOURS[k])
 for number, shape in enumerate(sorted(at_any_inclination(3.0), key=lambda shape: shape.offset[0]), 1):
     colour = COLOURS[branch_of(shape, branches)]
     curve.plot(3.0, shape.offset[0], "o", color=colour)
@@ -102,8 +102,8 @@ for number, shape in enumerate(sorted(at_any_inclination(3.0), key=lambda shape:
     hang(side, shape.offset, -shape.height, color=colour, linewidth=2.5)
     side.text(shape.offset[0], 0.01 - shape.height[0], number, color=colour, ha="center", va="top")
 curve.axhline(0, color="black", linewidth=0.6)
-curve.set(xlabel="speed (turns per second)", ylabel="offset of the tip (m)", title="every steady shape")
-side_view(side, "the five shapes at 3 turns per second", bottom=0.4, top=0.02, half_width=0.4)
+curve.set(xlabel="speed (turns/s)", ylabel="offset of the tip (m)", title="every steady shape")
+side_view(side, "the five shapes at 3 turns/s", bottom=0.4, top=0.02, half_width=0.4)
 side.set_ylabel("depth below the hand (m)")
 plt.show()
 
@@ -129,13 +129,13 @@ curve.text(2.8, -0.5, "plummet", color="0.45", ha="right", va="top")
 curve.text(1.65, 9, "tip on the side\nof the hand", ha="center")
 curve.text(1.62, -10, "tip on the\nother side", ha="center")
 curve.axhline(0, color="black", linewidth=0.6)
-curve.set(xlabel="speed (turns per second)", ylabel="offset of the tip / of the hand", xlim=(0.2, 2.8), ylim=(-12, 12))
+curve.set(xlabel="speed (turns/s)", ylabel="offset of the tip / of the hand", xlim=(0.2, 2.8), ylim=(-12, 12))
 curve.set_title("the tip, near the vertical")
 side.axvline(0, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
 side.plot(1000 * HAND, 0, "o", color="black", markersize=8)
 side.text(1000 * HAND, 0, "   hand", va="center")
 side.set(xlabel="distance from axis (mm)", ylabel="depth below the hand (m)", xlim=(-30, 30), ylim=(0.39, -0.02))
-side.set_title("at 0.7, 1.5 and 2.6 turns per second")
+side.set_title("at 0.7, 1.5 and 2.6 turns/s")
 plt.show()
 
 # %%

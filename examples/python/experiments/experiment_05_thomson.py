@@ -68,11 +68,12 @@ for k, panel in enumerate(axes):
         hang(panel, shape, [THREAD, at, 0], weights=[120, 240], color=COLOURS[k], linewidth=2.5)
         panel.plot(axis, level, "o", color="black", markersize=6, zorder=4)
     panel.axhline(level, color="black", linewidth=0.8, linestyle=":")
-    panel.text(0.5, level - 0.01, "C₁", ha="center", va="bottom")
+    panel.text(0.5, level - 0.01, ["C₁: extended\nlower thread\nmeets the axis", "C₁"][k], ha="center", va="bottom")
     name = ["slower", "faster"][k]
-    panel.set(title=f"{name} mode: {result.frequency[k]:.2f} turns per second", xlim=(-0.5, 1.5), ylim=(1.06, -0.03))
+    panel.set(title=f"{name} mode: {result.frequency[k]:.2f} turns/s", xlim=(-0.5, 1.5), ylim=(1.06, -0.03))
     panel.set_xticks([0, 1], ["double weight\na quarter down", "double weight\nthree quarters down"])
 axes[0].set_ylabel("depth below the support (m)")
+axes[0].text(0.62, 0.5, "dashed:\nextension", color="0.4", ha="center")
 plt.show()
 
 # %%

@@ -75,7 +75,7 @@ for shape in figures(2.0):
 side.text(0.5, 0.14, "1 half wave", color=COLOURS[0])
 side.text(0.06, 0.56, "two weights", color=COLOURS[1])
 side.text(0.3, 0.67, "chain: 2 half waves", color=COLOURS[1])
-side_view(side, "two weights instead of the chain, at 2 turns per second", bottom=0.7, half_width=1)
+side_view(side, "two weights instead of the chain, at 2 turns/s", bottom=0.7, half_width=1)
 side.set(xlim=(-0.35, 1.05), ylabel="depth below the support (m)")
 plt.show()
 
@@ -93,9 +93,9 @@ for shape, place in zip(rc.steady_shapes(cord, angular_speed=2 * np.pi * 3.0), p
     side.text(*place, f"{waves} half wave{'s' * (waves > 1)}", color=colour)
     curve.plot(3.0, shape.offset[0], "o", color=colour, markersize=8)
     curve.text(3.0, shape.offset[0] + 0.03, waves, color=colour, ha="center")
-side_view(side, "the chain at 3 turns per second", bottom=1.03, half_width=1)
+side_view(side, "the chain at 3 turns/s", bottom=1.03, half_width=1)
 side.set(xlim=(-0.35, 1.05), ylabel="depth below the support (m)")
-curve.set(xlabel="speed (turns per second)", ylabel="distance of the free end from axis (m)")
+curve.set(xlabel="speed (turns/s)", ylabel="distance of the free end from axis (m)")
 curve.set(xlim=(0, 3.6), ylim=(-0.02, 1.08), title="one more shape at each whirl speed")
 plt.show()
 

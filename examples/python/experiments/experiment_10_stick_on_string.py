@@ -97,19 +97,19 @@ def draw(axes, hand, shape, colour, text):
 figure, (curve, side) = panels(2, [1, 1.8], height=4)
 branches = rc.branches(carried, max_angular_speed=2 * np.pi * 4)
 hues = [COLOURS[0], COLOURS[2], COLOURS[1]]
-for line, colour, place in zip(branches, hues, [(0.9, 55), (0.9, -45), (2.75, 15)], strict=True):
+for line, colour, place in zip(branches, hues, [(0.9, 55), (0.9, -52), (2.75, 8)], strict=True):
     speeds = line.angular_speed / (2 * np.pi)
     curve.plot(speeds, np.degrees(line.lowest_inclination), color=colour, linewidth=2.5)
-    curve.text(*place, "from rest" if line.birth == "rest" else f"from {min(speeds):.2f}", color=colour)
+    curve.text(*place, "from rest" if line.birth == "rest" else f"from {min(speeds):.2f}\nturns/s", color=colour)
 for number, shape in enumerate(sorted(driven(2.5), key=lambda shape: shape.inclination[0]), 1):
     colour = hues[branch_of(shape, branches)]
     draw(side, HAND, shape, colour, number)
     curve.plot(2.5, np.degrees(shape.inclination[0]), "o", color=colour)
     curve.text(2.5, np.degrees(shape.inclination[0]) + 4, number, color=colour, ha="right" if number == 4 else "left")
 curve.axhline(0, color="black", linewidth=0.6)
-curve.set(xlabel="speed (turns per second)", ylabel="inclination of the stick (°)", yticks=range(-90, 91, 30))
+curve.set(xlabel="speed (turns/s)", ylabel="inclination of the stick (°)", yticks=range(-90, 91, 30))
 curve.set_title("hand on a circle of 2 cm")
-side_view(side, "the five shapes at 2.5 turns per second", bottom=1.05, half_width=1.15)
+side_view(side, "the five shapes at 2.5 turns/s", bottom=1.05, half_width=1.15)
 side.set_ylabel("depth below the hand (m)")
 plt.show()
 
@@ -128,11 +128,11 @@ for k, slowest in enumerate(rc.modes(chain).frequency):
     lean = np.degrees([[0, 0], *(figures(n)[k].inclination for n in speeds[1:])])
     curve.plot(speeds, lean[:, 0], color=COLOURS[k], linewidth=4)
     curve.plot(speeds, lean[:, 1], color=COLOURS[k], linewidth=1.5)
-for x, y, text, k in [(1.2, 65, "stick and string", 0), (3, 50, "stick", 1), (3, -40, "string", 1)]:
+for x, y, text, k in [(1.2, 50, "stick (string\nnearly\nthe same)", 0), (3, 50, "stick", 1), (3, -40, "string", 1)]:
     curve.text(x, y, text, color=COLOURS[k])
 curve.axhline(0, color="black", linewidth=0.6)
-curve.set(xlabel="speed (turns per second)", ylabel="inclination (°)", yticks=range(-60, 91, 30), ylim=(-65, 95))
-side_view(side, "hand at rest: 0.6, 0.8, 1.5 and 3 turns per second", bottom=1.0, half_width=1)
+curve.set(xlabel="speed (turns/s)", ylabel="inclination (°)", yticks=range(-60, 91, 30), ylim=(-65, 95))
+side_view(side, "hand at rest: 0.6, 0.8, 1.5 and 3 turns/s", bottom=1.0, half_width=1)
 side.set(ylabel="depth below the hand (m)", xlim=(-0.35, 1.2))
 plt.show()
 

@@ -52,28 +52,29 @@ print(f"eight point masses at 5.95 sqrt(g/a): {len(eight)} shapes, {'all' if eig
 # All branches of the three masses, and where the five shapes A to E are on them.
 
 figure = plt.figure(figsize=(8, 4.5), layout="constrained")
-axes = figure.subplot_mosaic([["A", "B", "C", "all"], ["D", "E", ".", "all"]], width_ratios=[1.25, 1, 1, 3.4])
+axes = figure.subplot_mosaic([["A", "B", "C", "all"], ["D", "E", ".", "all"]], width_ratios=[1.3, 1.3, 1.3, 3])
 curves = axes["all"]
-closer = curves.inset_axes((0.42, 0.4, 0.56, 0.42), xlim=(3.85, 4.75), ylim=(80.3, 85.9), xticks=[4.0, 4.4])
+closer = curves.inset_axes((0.5, 0.46, 0.49, 0.31), xlim=(3.85, 4.75), ylim=(80.3, 86.4), xticks=[4.0, 4.4])
 for panel in (curves, closer):
     for branch in diagram:
         panel.plot(branch.angular_speed, np.degrees(branch.lowest_inclination), color=f"C{branch.half_waves[-1] - 1}")
     panel.axvline(SPEED, color="0.6", linewidth=0.8, linestyle=":")
 curves.indicate_inset_zoom(closer)
-closer.annotate("isolated branch", (3.92, 85.1), color="C2")
+closer.annotate("isolated", (3.9, 85.3), color="C2")
 for letter, shape in zip("ABCDE", shapes, strict=True):
     panel, colour, tip = axes[letter], f"C{shape.half_waves - 1}", np.degrees(shape.inclination[0])
     panel.plot(shape.offset, shape.height, "o-", color=colour, clip_on=False)
     panel.axvline(0, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
     panel.set_title(f"{letter}: {shape.half_waves} half wave{'s' * (shape.half_waves > 1)}")
-    panel.set(aspect="equal", xticks=[], yticks=[])
+    middle = 1.5 if letter == "A" else 0
+    panel.set(aspect="equal", xticks=[], yticks=[], xlim=(middle - 1.6, middle + 1.6), ylim=(-3.1, 0.2))
     panel.spines[:].set_visible(False)
     curves.plot(SPEED, tip, "o", color=colour)
     closer.plot(SPEED, tip, "o", color=colour)
-    panel = closer if 80.3 < tip < 85.9 else curves
+    panel = closer if 80.3 < tip < 86.4 else curves
     beside = {"B": (-13, 3), "D": (7, -9), "E": (8, -6)}.get(letter, (5, 4))
     panel.annotate(letter, (SPEED, tip), xytext=beside, textcoords="offset points", color=colour, weight="bold")
-curves.set(title="branches, and the five shapes at 4.4 $\\sqrt{g/a}$", xlabel="speed over $\\sqrt{g/a}$")
+curves.set(title="branches, and the five shapes at 4.4 $\\sqrt{g/a}$", xlabel="speed over $\\sqrt{g/a}$, $a$: length of one thread")
 curves.set_ylabel("inclination of the lowest thread (°)")
 plt.show()
 

@@ -20,12 +20,13 @@ for turns, colour, place in ((0.5, "C0", (13.5, 0.2)), (1.5, "C1", (-27, 0.29)),
     axes.plot(1000 * found.offset, depth, linewidth=2.5, color=colour)
     axes.text(*place, f"{turns} turns/s", color=colour)
 axes.plot(1000 * HAND, 0, "o", color="black", markersize=9, clip_on=False)
+axes.text(1000 * HAND + 2, 0.006, "hand")
 axes.axvline(0, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
 axes.set(xlabel="distance from axis (mm)", ylabel="depth below the hand (m)", ylim=(0.37, -0.01))
 plt.show()
 
 # %%
-# The dot is the hand, 10 mm from the axis. Below its first whirl speed (Greenhill 1908, section 1
+# The hand is 10 mm from the axis. Below its first whirl speed (Greenhill 1908, section 1
 # (9)) the chain is on the same side as the hand. At each whirl speed the free end changes to the
 # other side. Between two whirl speeds there is a speed at which a given link stays on the axis.
 
@@ -51,15 +52,15 @@ print(
 rc.swing(chain, np.linspace(0.0, 2.0, 401), offset=plucked).show()
 
 # %%
-# The left picture has the whole sweep of speeds. Dash-dotted lines mark the whirl speeds, and the
-# grey line is the hand. The right picture is the free end after the release.
+# The left picture has the whole sweep of speeds. Dash-dotted lines mark the whirl speeds. Near them
+# the theory of small motion gives offsets without limit; the picture ends at 100 mm. The right picture is the free end after the release.
 
 speeds = np.linspace(1, 28, 1400)
 sweep = rc.response(chain, angular_speed=speeds, support_radius=HAND)
 print(f"{speeds.size} speeds: error bounds up to {sweep.error_bound.max():.2g} of the largest offset")
 
 figure, (curve, time) = plt.subplots(1, 2, figsize=(8, 4), layout="constrained")
-for pin, colour, name, *place in ((0, "C0", "free end", 2.6, 20), (LINKS // 2, "C1", "middle", 1.6, 0.8)):
+for pin, colour, name, *place in ((0, "C0", "free end", 1.25, 60), (LINKS // 2, "C1", "middle", 2.4, 0.6)):
     size, side = 1000 * np.abs(sweep.offset[:, pin]), sweep.offset[:, pin]
     curve.plot(speeds / (2 * np.pi), np.where(side > 0, size, np.nan), color=colour)
     curve.plot(speeds / (2 * np.pi), np.where(side < 0, size, np.nan), color=colour, linestyle="--")
@@ -67,13 +68,14 @@ for pin, colour, name, *place in ((0, "C0", "free end", 2.6, 20), (LINKS // 2, "
 for frequency in rc.modes(chain, count=3).frequency:
     curve.axvline(frequency, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
 curve.axhline(1000 * HAND, color="0.6", linewidth=0.8, zorder=0)
-curve.text(3.65, 0.4, "dashed:\nopposite\nto the hand")
-curve.set(yscale="log", ylim=(0.3, 1000), xlabel="speed (turns/s)", ylabel="distance from axis (mm)")
-curve.set_title("hand carried round 10 mm from the axis")
+curve.text(3.75, 0.4, "dashed:\nopposite\nto the hand")
+curve.text(4.5, 8.3, "hand", color="0.4", va="top")
+curve.set(yscale="log", xlim=(0, 5.3), ylim=(0.3, 100), xlabel="speed (turns/s)", ylabel="distance from axis (mm)")
+curve.set_title("hand carried round 10 mm from the axis,\nsmall-motion theory")
 
 time.plot(moments, 1000 * swing.offset[:, 0], linewidth=1)
 time.plot(moments, 1000 * few.offset[:, 0], linewidth=1, linestyle="--")
-time.set(title="plucked 10 mm in the middle, released")
+time.set_title("plucked 10 mm in the middle,\nreleased")
 time.set(xlabel="time (s)", ylabel="offset of the free end (mm)", ylim=(-32, 32))
 time.text(0.1, 27, "all modes", color="C0")
 time.text(2.1, 27, "three slowest modes", color="C1")

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from ..plots.modes import BACKWARD, FORWARD, LINK
-from ..plots.style import house, plain
+from ..plots.modes import BACKWARD, FORWARD, LINK, ROD
+from ..plots.style import AXIS, house, plain
 from ..systems.extras import require
 from ..systems.numbers import Floats
 from .film import Complex, Figure, Film, side_by_side
@@ -82,7 +82,7 @@ class Drawing:
 
     def _stage(self, figure: Figure, nth: int, low: float, high: float, deep: float) -> None:
         ax, film, at = self.ax, self.film, float(self.across[nth])
-        ax.plot([at, at], np.array([low, high]) * np.cos(TILT), color="0.7", linestyle="--", linewidth=0.9)
+        ax.plot([at, at], np.array([low, high]) * np.cos(TILT), **AXIS)
         whole = np.exp(1j * np.linspace(0, 2 * np.pi, 91))
         if figure.is_rigid:
             pin = int(np.abs(figure.offset[0]).argmax())
@@ -128,7 +128,7 @@ class Drawing:
 
         long = bodies.rod > 0
         if long.any():
-            rods = self.ax.plot([], [], color=LINK, linewidth=6.0, alpha=0.35, zorder=3, solid_capstyle="butt")[0]
+            rods = self.ax.plot([], [], **ROD, solid_capstyle="butt")[0]
 
             def lay(frame: int) -> None:
                 ends = [between(bodies.along + sign * bodies.rod)[long] for sign in (-1, 1)]
@@ -137,7 +137,8 @@ class Drawing:
 
             self._move(rods, lay)
         face = np.where(bodies.floats, "white", LINK)
-        balls = self.ax.scatter(bodies.size, bodies.size, s=20 + 60 * bodies.size, c=face, edgecolors=LINK, zorder=4)
+        size = np.where(long, 0.0, 20 + 60 * bodies.size)
+        balls = self.ax.scatter(bodies.size, bodies.size, s=size, c=face, edgecolors=LINK, zorder=4)
         self._move(balls, lambda frame: balls.set_offsets(between(bodies.along)))
         wheels = np.flatnonzero(bodies.wheel)
         if wheels.size:
@@ -232,7 +233,7 @@ def write_gif(film: Film, path: Path, progress: Progress) -> None:
 def _palette(figures: int) -> list[int]:
     """Return the colours of a film for a GIF, each in tints from full to white."""
     to_rgb = require("matplotlib.colors", "animate", "a .gif film").to_rgb
-    names = ["black", LINK, "0.7", *(house(k) for k in range(max(figures, 2)))]
+    names = ["black", LINK, ROD["color"], BACKWARD, *(house(k) for k in range(max(figures, 2)))]
     pure = np.array([to_rgb(name) for name in names])[:, None]
     tints = 1 - (1 - pure) * np.linspace(0.0, 1.0, TINTS)[:, None]
     return np.unique((255 * tints).round().astype(int).reshape(-1, 3), axis=0).ravel().tolist()

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..plots.forms import SIZES, colour_of, forms, opacity_of, pieces_of, unit_of
+from ..plots.forms import SIZES, colour_of, forms, opacity_of, start_of, unit_of
 from ..plots.style import PALETTE
 from ..systems.numbers import Floats, Whole
 from .film import Complex, Figure, Film, pace, side_by_side
@@ -153,13 +153,22 @@ class _Solid:
         self._turn(figure, turning, phase, whole)
         points = in_space(figure.offset, figure.height)
         colour = PALETTE[film.colours[nth] % len(PALETTE)]
+        of_form = zip(film.bodies.link.tolist(), film.bodies.form, strict=True)
+        shapes = {link: (k, forms()["bodies"][form]) for k, (link, form) in enumerate(of_form) if form}
         for k in range(points.shape[1] - 1):
             name = film.names[k] if film.names else f"segment {k}"
             if film.rings[k]:
                 self._ring(name, turning, points[:, k + 1], points[:, k], colour, k % 2)
                 continue
+            if (body := shapes.get(k, (0, {}))[1]).get("bare"):
+                continue
             radius = (THICK if film.stout[k] else THIN) * self.tall
-            self._bar(name, turning, points[:, k + 1], self._end_of_bar(points, k), radius, colour)
+            lower = points[:, k]
+            if above := body.get("hangs"):  # from a bar that ends above its centre of gravity
+                step = lower - points[:, k + 1]
+                long = np.linalg.norm(step, axis=1)[:, None]
+                lower = points[:, k + 1] + (film.bodies.along[shapes[k][0]] - above * self.tall / long) * step
+            self._bar(name, turning, points[:, k + 1], lower, radius, colour)
         self._bodies(turning, points, colour)
         for end in (0, -1) if film.is_held else (-1,):
             self._ball("support", turning, points[:, end], 0.6 * BALL * self.tall, GREYS["support"])
@@ -202,15 +211,6 @@ class _Solid:
         node = self._node(name, parent, mesh=self._mesh("ball", colour))
         self._placed(node, at, None, np.full((1, 3), radius))
 
-    def _end_of_bar(self, points: Floats, link: int) -> Floats:
-        """Return the lower pin of a link; for what hangs from a bar above its centre of gravity, the end of that bar."""
-        bodies, lower, upper = self.film.bodies, points[:, link], points[:, link + 1]
-        for k in np.flatnonzero(bodies.link == link).tolist():
-            if bodies.form[k] and (above := forms()["bodies"][bodies.form[k]].get("hangs")):
-                long = np.linalg.norm(lower - upper, axis=1)[:, None]
-                return np.asarray(upper + (bodies.along[k] - above * self.tall / long) * (lower - upper))
-        return lower
-
     def _ring(self, name: str, parent: int, upper: Floats, lower: Floats, colour: str, odd: int) -> None:
         along = upper - lower
         long = np.maximum(np.linalg.norm(along, axis=1), 1e-9 * self.tall)
@@ -238,9 +238,9 @@ class _Solid:
             if film.rings.size > link and film.rings[link]:
                 continue
             if rod:
-                self._bar(
-                    f"rod of {of}", parent, middle - rod * step, middle + rod * step, 1.6 * THIN * self.tall, colour
-                )
+                ends = middle - rod * step, middle + rod * step
+                self._bar(f"rod of {of}", parent, *ends, 1.6 * THIN * self.tall, colour)
+                continue
             grey = GREYS["floating" if floats else "body"]
             self._ball(f"body of {of}", parent, middle, ball * max(size, 0.3), grey)
 
@@ -250,7 +250,8 @@ class _Solid:
         """Add the pieces of a form of the table, in axes of the link whose y points from its upper pin along it."""
         body, long = forms()["bodies"][form], np.maximum(np.linalg.norm(step, axis=1), 1e-9 * self.tall)
         unit, turn = unit_of(body, self.tall, float(long[0]), gyration), _turned_to(step / long[:, None])
-        for start, (kind, shade, (x, y, z), scale, *tilt) in pieces_of(body, along * long):
+        start = start_of(body, along * long, unit)
+        for kind, shade, (x, y, z), scale, *tilt in [*body["pieces"], *body.get("solid", ())]:
             mesh = self._mesh("cylinder" if kind == "bar" else kind, colour_of(shade, back)[1:])
             node = self._node(f"{form} of {of}", parent, mesh=mesh)
             inside = np.column_stack([np.full_like(long, x * unit), start + y * unit, np.full_like(long, z * unit)])
@@ -401,9 +402,9 @@ def _revolved(profile: Floats, bands: Whole) -> Surface:
         for part in (profile[:, :2], profile[:, 2:])
     )
     at = (bands[:, None] * n + np.arange(SIDES)).ravel()
-    upper, lower = np.column_stack([at, at + 1, at + n]), np.column_stack([at + 1, at + n + 1, at + n])
+    pairs = np.stack([at, at + 1, at + n, at + 1, at + n + 1, at + n], axis=1).reshape(-1, 3)  # what is half clear, band by band
     radius = profile[:, 0].repeat(n)
-    faces = np.concatenate([upper[radius[at] > 1e-6], lower[radius[at + n] > 1e-6]])  # on the axis they have no area
+    faces = pairs[np.stack([radius[at] > 1e-6, radius[at + n] > 1e-6], axis=1).ravel()]  # on the axis they have no area
     return points, normals, faces.astype(np.uint16).ravel()
 
 

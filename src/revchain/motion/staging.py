@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ..plots.modes import MOST_SHAPES, Straight, floating, rows_of
+from ..plots.modes import MOST_SHAPES, Straight, floating, rods_of, rows_of
 from ..plots.shapes import words_of
 from ..plots.forms import form_of
 from ..plots.style import CAPTION_UNITS, MOST_PINS_AS_DOTS, thinned, with_speeds
@@ -100,7 +100,7 @@ def _(modes: Modes, choices: Choices) -> Film:
     both = bool(getattr(modes, "has_momentum", False))
     named: list[Turning] = []
     for row in rows:
-        shape = np.asarray(modes.shape[row], float)
+        shape = np.asarray(np.real(modes.shape[row]), float)
         way = (" forward" if modes.angular_speed[row] > 0 else " backward") * both
         scale = largest / np.abs(shape).max()
         named.append((f"mode {modes.number[row]}{way}", shape, height, float(modes.angular_speed[row]), scale))
@@ -348,11 +348,10 @@ def _bodies(system: Any, base: Any) -> Bodies:
     weight = np.broadcast_to(base._compiled.weight, base.size)
     momentum = system._momentum(1.0)
     link = np.flatnonzero((weight > 0) | (momentum != 0))
-    rod = math.sqrt(3) * base.radius_of_gyration / base.length
     arrays = {
         "along": base.centroid / base.length,
         "size": np.cbrt(weight / weight.max()),
-        "rod": np.where(rod < 1, rod, 0.0),  # what is longer is no rod
+        "rod": rods_of(base) / base.length,
         "wheel": np.sign(momentum),
         "floats": floating(system),
         "gyration": base.radius_of_gyration,

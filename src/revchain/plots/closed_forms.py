@@ -10,6 +10,7 @@ import numpy as np
 
 from ..closed_forms.table import described
 from ..systems.numbers import count, one_positive, refuse_beyond_memory, shown
+from .forms import colour_of, forms
 from .style import (
     AXIS, BLUE, ORANGE, WIDEST, SpeedUnit, axes_or_new, checked_axes, house, keep_room, legend_outside, new_figure,
 )
@@ -305,29 +306,27 @@ def plot_bell(bell: BellAndClapper, ax: Axes | None = None) -> Axes:
     pin, h1, h2 = data["joint"], data["clapper_centroid"], data["bell_centroid"]
     gyration = data["clapper_radius_of_gyration"], data["bell_radius_of_gyration"]
     l1, l2 = (h + rho**2 / h if h else np.inf for h, rho in zip((h1, h2), gyration, strict=True))
-    ball = float(bell.system.length[0])  # from the pin of the clapper to its ball
-    lip = pin + 1.12 * ball
-    crown = max(0.0, pin - 0.12 * ball)
+    lip = pin + 1.3 * h1  # the ball is at the centroid of the clapper
+    crown = max(0.0, pin - 0.15 * h1)
     ax = axes_or_new(ax, 8.5, 5.0)
 
-    down = np.linspace(0.0, 1.0, 60)
-    wide = 0.62 * (lip - crown) * (np.minimum(1.0, (down / 0.12) ** 0.4) * (0.5 + 0.14 * down) + 0.36 * down**6)
-    depth = crown + (lip - crown) * down
-    ax.plot(np.concatenate([-wide[::-1], wide]), np.concatenate([depth[::-1], depth]), color="0.45", linewidth=2.5)
-    half, top = 0.32 * (lip - crown), min(-0.06 * ball, crown - 0.18 * ball)
+    outline = np.array(forms()["profiles"]["bell"])
+    wide, depth = (outline - [0, outline[0, 1]]).T * (lip - crown) / np.ptp(outline[:, 1])
+    ax.fill([*wide, *-wide[::-1]], crown + np.array([*depth, *depth[::-1]]), colour_of("bronze", False), edgecolor="0.2")
+    half, top = 0.32 * (lip - crown), min(-0.06 * h1, crown - 0.18 * h1)
     ax.fill([-half, half, half, -half], [crown, crown, top, top], color="0.88", edgecolor="0.45", zorder=1)
     ax.text(1.1 * half, (crown + top) / 2, "headstock", color="0.35", va="center", fontsize="small")
-    ax.plot([0.0, 0.0], [pin, pin + 1.08 * ball], color=ORANGE, linewidth=2.2, zorder=3)
-    ax.plot(0.0, pin + ball, marker="o", markersize=13.0, color=ORANGE, zorder=3)
+    ax.plot([0.0, 0.0], [pin, pin + bell.system.length[0]], color=ORANGE, linewidth=2.2, zorder=3)
+    ax.plot(0.0, pin + h1, marker="o", markersize=13.0, color=ORANGE, zorder=3)
     marks = [
         (0.0, "axle", "^", "black"),
         (pin, "pin of the clapper", "o", ORANGE),
         (h2, "centroid of the bell", "x", "0.3"),
-        (pin + h1, "centroid of the clapper", "x", ORANGE),
+        (pin + h1, "centroid of the clapper", "x", "black"),
     ]
     for z, name, marker, colour in marks:
         ax.plot(0.0, z, marker=marker, linestyle="none", color=colour, markersize=8.0, label=name, zorder=4)
-    side = -1.25 * wide[-1]
+    side = -1.25 * wide.max()
     for x, start, length, name, colour in (
         (side, 0.0, l2, "bell: $l_2$", "0.3"),
         (0.82 * side, pin, l1, "clapper: $l_1$", ORANGE),

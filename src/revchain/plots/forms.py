@@ -11,12 +11,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..systems.numbers import Floats
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-FORM_OF_WORD = {  # in the name of a link
-    "bell": "bell", "clapper": "clapper", "jar": "jar", "man": "person", "acrobat": "person", "chair": "seat", "seat": "seat", "load": "crate",
-    "hook": "hook", "wheel": "wheel", "gyrostat": "disc",
+FORM_OF_WORD = {  # the first of which all words are in the name of a link
+    "clapper bell": "tied", "bell": "bell", "clapper": "clapper", "jar": "jar", "man": "person", "acrobat": "person", "swing": "swing",
+    "chair": "seat", "seat": "seat", "load": "crate", "hook": "hook", "wheel": "wheel", "gyrostat": "disc",
 }  # fmt: skip
 
 
@@ -28,11 +30,17 @@ def forms() -> dict[str, Any]:
 
 
 SIZES: dict[str, Any] = forms()["sizes"]  # over the height or the width of the whole; `rim` of a wheel on a point mass
+HALVES = {  # one half of an outline, of radius or width 1
+    "box": [[0, -0.5], [0.5, -0.5], [0.5, 0.5], [0, 0.5]], "bar": [[0, -0.5], [1, -0.5], [1, 0.5], [0, 0.5]],
+    "ball": [[0, -1], [1, 0], [0, 1]], "rim": [[0, -0.05], [1.05, -0.05], [1.05, 0.05], [0, 0.05]],
+}  # fmt: skip
+WIDEST_FORM = 4.0  # of a body, half its width, in units of the axis
 
 
 def form_of(name: str) -> str:
-    """Return the form of a link whose name has one of the words of the table; empty for a bar with a ball."""
-    return next((form for word, form in FORM_OF_WORD.items() if word in name.lower().split()), "")
+    """Return the form of a link whose name has the words of an entry; empty for a rod, or a bar with a ball."""
+    words = set(name.lower().split())
+    return next((form for each, form in FORM_OF_WORD.items() if words.issuperset(each.split())), "")
 
 
 def unit_of(body: dict[str, Any], tall: float, length: float, gyration: float) -> float:
@@ -53,44 +61,45 @@ def opacity_of(colour: str) -> float:
     return float({table["colours"][name]: part for name, part in table["opacity"].items()}.get(colour, 1.0))
 
 
-def pieces_of(body: dict[str, Any], along: Any) -> Iterator[tuple[Any, list[Any]]]:
-    """Yield each piece of a body with the distance from the pin at which its heights start.
+def start_of(body: dict[str, Any], along: Any, unit: float) -> Any:
+    """Return how far from the pin the heights of the pieces start, m, if the centre of gravity is at `along`."""
+    return np.maximum(along - body.get("above", 0.0) * unit, 0.0)
 
-    The body starts at its centre of gravity, at the distance `along`, unless its unit is the length of the link.
+
+def seen_of(form: str) -> Iterator[tuple[str, str, Floats]]:
+    """Yield the pieces of a form seen from the side, in its unit: kind, colour, and outline (aside, along the link)."""
+    for kind, shade, (_, up, aside), scale, *tilt in forms()["bodies"][form]["pieces"]:
+        turn, _, spoke = tilt[0] if tilt else (0.0, 0.0, 0.0)
+        if not spoke:
+            half: Floats = np.array(forms()["profiles"].get(kind) or HALVES[kind]) * scale[2:0:-1]
+            across = np.concatenate([half, half[::-1] * [-1, 1]])
+            yield kind, shade, across @ [[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]] + [aside, up]
+
+
+def extent_of(form: str) -> tuple[float, float, float]:
+    """Return how far a form reaches sideways, and from where to where along its link, in its unit."""
+    every = np.concatenate([outline for *_, outline in seen_of(form)])
+    return float(np.abs(every[:, 0]).max()), float(every[:, 1].min()), float(every[:, 1].max())
+
+
+def draw_form(ax: Axes, form: str, at: float, most: float, levels: Any, unit: float, backward: bool) -> None:
+    """Draw a body, seen from the side. A metre is as wide as it is high, or `most` units of the axis if that is less.
+
+    `levels` returns the levels of distances along the link from where the pieces start.
     """
-    start = 0.0 if body["unit"] == "length" else along
-    yield from ((start, piece) for piece in body["pieces"])
-    yield from ((0.0, piece) for piece in body.get("at_pin", ()))
+    from matplotlib.patches import Ellipse, Polygon
+    from matplotlib.transforms import Affine2DBase
 
+    class Proportions(Affine2DBase):
+        def get_matrix(self) -> Any:  # for the present size of the figure
+            (wide, _, left), (_, tall, low), _ = ax.transData.get_affine().get_matrix()
+            return np.array([[min(abs(tall), most * wide), 0, left + wide * at], [0, tall, low], [0, 0, 1]])
 
-def reach_of(form: str) -> float:
-    """Return how far a form reaches sideways, in its unit."""
-    pieces = forms()["bodies"][form]["pieces"]
-    return float(max(abs(at[2]) + (scale[2] / 2 if kind == "box" else scale[2]) for kind, _, at, scale, *_ in pieces))
-
-
-def draw_form(ax: Axes, form: str, at: float, pin: float, down: float, along: float, unit: float, wide: float) -> None:
-    """Draw the pieces of a body, seen from the side, on an axis whose numbers are `wide` times metres.
-
-    The link hangs from or stands on the pin at the level `pin`. Levels grow by `down` (1 or -1) along it. Its centre of
-    gravity is `along` metres from the pin.
-    """
-    from matplotlib.patches import Ellipse, Polygon, Rectangle
-
-    body, profiles = forms()["bodies"][form], forms()["profiles"]
-    for start, (kind, shade, (_, y, z), scale, *tilt) in pieces_of(body, along):
-        x, level, (_, high, deep) = at + wide * z * unit, pin + down * (start + y * unit), np.multiply(scale, unit)
-        style: dict[str, Any] = {"facecolor": colour_of(shade, False), "edgecolor": "0.2", "linewidth": 0.6, "zorder": 3}
-        if kind in profiles:
-            profile, up = np.array(profiles[kind]), -down if tilt else down
-            side = np.column_stack([wide * deep * profile[:, 0], up * high * profile[:, 1]])
-            outline = np.concatenate([side, (side * [-1, 1])[::-1]]) + [x, level]
-            ax.add_patch(Polygon(outline, closed=True, **style))
-        elif kind == "ball":
-            ax.add_patch(Ellipse((x, level), 2 * wide * deep, 2 * high, **style))
-        elif kind == "rim" or (kind == "bar" and not tilt):
-            half = deep * (1.05 if kind == "rim" else 1.0)
-            tall = 0.1 * high if kind == "rim" else high
-            ax.add_patch(Rectangle((x - wide * half, level - tall / 2), 2 * wide * half, tall, **style))
-        elif kind == "box":
-            ax.add_patch(Rectangle((x - wide * deep / 2, level - high / 2), wide * deep, high, **style))
+    true = Proportions()
+    true.set_children(ax.transData)
+    for kind, shade, outline in seen_of(form):
+        points = np.column_stack([outline[:, 0] * unit, levels(outline[:, 1] * unit)])
+        low, high = points.min(axis=0), points.max(axis=0)
+        patch = Ellipse(tuple((low + high) / 2), *(high - low)) if kind == "ball" else Polygon(points, closed=True)
+        patch.set(facecolor=colour_of(shade, backward), edgecolor="0.2", linewidth=0.6, zorder=3, transform=true)
+        ax.add_patch(patch)

@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 import textwrap
 from collections.abc import Iterable
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,10 +16,10 @@ from ..closed_forms.table import described
 from ..results.motions import Response
 from ..results.sheet import digits
 from ..systems.numbers import integer, listed, shown
-from .forms import draw_form, form_of, forms, reach_of, unit_of
+from .forms import WIDEST_FORM, colour_of, draw_form, extent_of, form_of, forms, start_of, unit_of
 from .style import (
-    AXIS, BLUE, GREEN, HOUSE, MOST_PINS_AS_DOTS, MOST_POINTS, ORANGE, TIMED_UNITS, WIDEST, SpeedUnit, axes_or_new,
-    new_figure, plain, thinned, with_speeds,
+    AXIS, GREEN, HOUSE, MOST_PINS_AS_DOTS, MOST_POINTS, TIMED_UNITS, WIDEST, SpeedUnit, axes_or_new, new_figure,
+    plain, thinned, with_speeds,
 )
 
 if TYPE_CHECKING:
@@ -30,18 +30,21 @@ if TYPE_CHECKING:
     from ..systems.rig import Support
     from ..systems.system import System
 
-FORWARD, BACKWARD, LINK, FLUID = BLUE, ORANGE, "0.35", "#e4f1f9"
+FORWARD, BACKWARD, LINK, FLUID = colour_of("", False), colour_of("", True), "0.35", "#e4f1f9"
 CARRIED = GREEN
 ARM: dict[str, Any] = {"color": "black", "linewidth": 2.5, "zorder": 3, "clip_on": False}
 SUPPORT: dict[str, Any] = {"color": "black", "markersize": 7.0, "zorder": 4, "clip_on": False}
+ROD: dict[str, Any] = {"color": "0.62", "linewidth": 6.0, "zorder": 2.5}
+JOINT: dict[str, Any] = {"color": "0.1", "ls": "none", "marker": "o", "mec": "white", "mew": 0.7, "ms": 5.5, "zorder": 2.7}
+RING = JOINT | {"color": "white", "mec": "black", "mew": 1.0, "ms": 7.0, "zorder": 3, "gid": "nodes"}
+STRETCH = 5.0  # of the offsets of a system that turns back, whose links would cover each other
 FOLD = 0.3  # sideways, between the links that hang and those that stand on them, at rest
 MOST_SHAPES = 6  # unless the caller chooses them: more are not legible side by side
 SPACING = 2.6  # between the axes of neighbouring shapes, each of which reaches from -1 to 1
 MOST_NAMES = 12
 NAME_WIDTH = 12  # letters in a line of a name
 COLUMN = 1.25  # inches between the axes of neighbouring shapes
-PLOT_HEIGHT = 4.8  # inches of the frame of a new figure
-WIDEST_FORM = 0.9  # of a body, half its width
+PLOT_HEIGHT = 4.0  # inches of the frame of a new figure
 LETTER, LETTER_OF_LABEL = 0.07, 0.088  # inches
 WHEEL = 0.6  # half the length of the bar of a flywheel
 
@@ -59,6 +62,7 @@ class Straight:
             steps = base.length * np.where(self.inverted, -1.0, 1.0) * (-1.0 if self.inverted.all() else 1.0)
             level = np.concatenate([np.cumsum(steps[::-1])[::-1], [0.0]])
         self.level: Floats = level[0] - level if system._is_held else level
+        self.along: Floats = np.sign(self.level[:-1] - self.level[1:])  # levels grow (1) or fall (-1) down each link
         self.few = not system._is_cord and base.size <= MOST_PINS_AS_DOTS
 
     @property
@@ -66,7 +70,7 @@ class Straight:
         """The text under the system at rest: the fluid, and an arm that is not drawn to scale."""
         fluid = f"\nin {self.system._fluid} fluid" if self.system._fluid else ""
         arm = "\narm not\nto scale" if self.system._support is not None and self.system._support.radius else ""
-        return f"at rest{fluid}{arm}"
+        return f"at rest{fluid}{arm}" if fluid or arm else "at rest\n"  # one line alone has another base line
 
     def names(self) -> list[str]:
         """Return the names of the links, in short lines; none if there are many links."""
@@ -74,63 +78,62 @@ class Straight:
         few = names is not None and len(names) <= MOST_NAMES and self.few
         return [plain(textwrap.fill(name, NAME_WIDTH)) for name in names or ()] if few else []
 
-    def beside(self) -> Floats:
-        """Return how far each link reaches sideways: half the width of its form or its flywheel, or 0."""
-        reach = np.zeros(self.level.size - 1)
-        if self.system.has_momentum:
-            reach[self.system._momentum(1.0) != 0] = WHEEL
-        for k, (form, unit, wide) in self._forms.items():
-            reach[k] = reach_of(form) * unit * wide
-        return reach
+    def beside(self) -> float:
+        """Return how far bodies and flywheels reach sideways, in units of the axis."""
+        reach = [extent_of(form)[0] * unit * metre for form, unit, metre in self._forms.values()]
+        return max([*reach, WHEEL * self.system.has_momentum])
 
-    def reach(self) -> float:
-        """Return how far the names reach sideways if columns have their usual width."""
-        longest = [max(map(len, name.split("\n"))) + 2 for name in self.names()]
-        letter = LETTER * SPACING / COLUMN
-        return max((far + n * letter for n, far in zip(longest, self.beside(), strict=False)), default=0.0)
+    def room(self) -> tuple[float, float]:
+        """Return how far bodies and a spring reach to the left, and names to the right if columns have their usual width."""
+        far, longest = self.beside(), max((len(line) + 2 for name in self.names() for line in name.split("\n")), default=0)
+        left = max(SPACING / 2, far + 0.2 + 0.9 * (self.system._support is not None))
+        return left, max(SPACING / 2, far + longest * LETTER * SPACING / COLUMN)
 
     @property
     def height(self) -> Floats:
         """Height of each pin or point of a cord above the support, or above the lower end of a held system."""
         return self.level if self.upwards else -self.level
 
-    def _ends(self, bodies: bool = True) -> tuple[float, float]:
+    def _ends(self) -> tuple[float, float]:
         """Return the lowest and the highest level of the picture."""
         low, high = float(self.level.min()), float(self.level.max())
-        if bodies and self.few:
-            middle, reach = self._middles(), math.sqrt(3) * self.base.radius_of_gyration
-            low, high = min(low, float((middle - reach).min())), max(high, float((middle + reach).max()))
+        if self.few:
+            middle, half = self._middles(), rods_of(self.base)
+            ends = [middle - half, middle + half]
+            for k, (form, unit, _) in self._forms.items():
+                ends.append(self._levels(k, np.multiply(extent_of(form)[1:], unit)))
+            low, high = min(low, *map(np.min, ends)), max(high, *map(np.max, ends))
         margin = 0.04 * (high - low)
         return low - margin, high + margin
 
     @cached_property
     def _forms(self) -> dict[int, tuple[str, float, float]]:
-        """Return, for each link whose name has a form, the form, its unit and how wide a metre of it is drawn."""
+        """Return, for each link whose name has a form, the form, its unit in metres, and units of the axis for a metre."""
         base, names = self.base, getattr(self.base, "names", None)
-        if not self.few or names is None:
-            return {}
-        low, high = self._ends()
         tall, found = float(np.ptp(self.level)), {}
-        for k, name in enumerate(names):
+        for k, name in enumerate(names or () if self.few else ()):
             if form := form_of(name):
                 unit = unit_of(forms()["bodies"][form], tall, float(base.length[k]), float(base.radius_of_gyration[k]))
-                true = SPACING / COLUMN * PLOT_HEIGHT / (high - low)  # numbers of the axis for a metre
-                found[k] = form, unit, min(true, WIDEST_FORM / (reach_of(form) * unit))
+                most = WIDEST_FORM / (extent_of(form)[0] * unit)
+                found[k] = form, unit, min(most, SPACING / COLUMN * PLOT_HEIGHT / tall)
         return found
 
-    def finish(self, ax: Axes, bodies: bool = True) -> None:
-        ends = self._ends(bodies)
+    def _levels(self, link: int, along: Floats) -> Floats:
+        """Return the levels of distances along the body of a link that has a form."""
+        form, unit, _ = self._forms[link]
+        start = start_of(forms()["bodies"][form], self.base.centroid[link], unit)
+        return np.asarray(self.level[link + 1] + self.along[link] * (start + along))
+
+    def finish(self, ax: Axes) -> None:
+        ends = self._ends()
         ax.set_ylim(*(ends if self.upwards else ends[::-1]))
-        what = "depth below the support"
-        if self.upwards:
-            what = "height above the " + ("lower end" if self.system._is_held else "support")
-        ax.set_ylabel(f"{what} (m)")
+        what = "height above the " + ("lower end" if self.system._is_held else "support")
+        ax.set_ylabel(f"{what if self.upwards else 'depth below the support'} (m)")
         for side in ("top", "right"):
             ax.spines[side].set_visible(False)
 
     def axis(self, ax: Axes, at: float) -> None:
-        ends = [self.level.max(), self.level.min()]
-        ax.plot([at, at], ends, color="0.6", linestyle="--", linewidth=0.9, zorder=1)
+        ax.plot([at, at], [self.level.max(), self.level.min()], **AXIS)
 
     def supports(self, ax: Axes, at: float) -> None:
         ax.plot(at, self.level[-1], marker="^" if self.inverted.all() else "v", **SUPPORT)
@@ -143,6 +146,10 @@ class Straight:
         marker = "o" if self.few else ""
         line: dict[str, Any] = {"color": colour, "linewidth": 1.6, "marker": marker, "markersize": 4.0, "zorder": 2}
         ax.plot(across[drawn], self.level[drawn], label=label, **line)
+        above: Floats = (rods_of(self.base) - self.base.centroid) / self.base.length if self.few else np.zeros(0)
+        for k in np.flatnonzero(above > 1e-9):  # rods that go on above their pins
+            ends = [[at[k + 1], at[k + 1] + above[k] * (at[k + 1] - at[k])] for at in (across, self.level)]
+            ax.plot(*ends, **line | {"marker": ""})
         stout = np.flatnonzero(self.inverted)
         stout = stout[:: 1 + stout.size // MOST_POINTS]
         if stout.size:
@@ -177,47 +184,55 @@ class Straight:
             self.supports(ax, 0.0)
 
     def _folded(self, ax: Axes) -> Floats:
-        """Draw the line of the chain, beside itself where it turns back; return how far aside each link is."""
-        stands, level, size = self.inverted, self.level, self.level.size - 1
-        turns = np.flatnonzero(stands[1:] != stands[:-1]) + 1
-        first, end = np.concatenate([[0], turns]), np.concatenate([turns, [size]])
-        aside = min(FOLD, 1.0 / first.size) * np.arange(first.size)[::-1]
-        path = np.stack([level[first], level[end]], 1).ravel()
-        ax.plot(np.repeat(aside, 2), path, color=LINK, linewidth=1.6)
-        up = stands[first]
-        ax.vlines(aside[up], level[first][up], level[end][up], color=LINK, linewidth=4.0)
-        return np.repeat(aside, end - first)
+        """Draw the bars of the links, beside each other where the chain turns back; return how far aside each link is."""
+        stands, level, bodies = self.inverted, self.level, forms()["bodies"]
+        run = np.concatenate([[0], np.cumsum(stands[1:] != stands[:-1])])
+        bare = [k for k, (form, *_) in self._forms.items() if bodies[form].get("bare")]
+        aside: Floats = min(FOLD, 1.0 / (run[-1] + 1)) * (run[-1] - run) * (len(bare) < run.size)
+        first = np.arange(run.size) if self.few else np.flatnonzero(np.diff(run, prepend=-1))
+        lower, upper = level[first].astype(float), level[[*first[1:], run.size]]
+        lower[bare] = np.nan
+        for k in (k for k, (form, *_) in self._forms.items() if "hangs" in bodies[form]):
+            lower[k] = self._middles()[k] - self.along[k] * bodies[self._forms[k][0]]["hangs"] * np.ptp(level)
+        ax.vlines(aside[first], lower, upper, color=LINK, linewidth=np.where(stands[first], 4.0, 1.6))
+        turns = np.flatnonzero(np.diff(run)) + 1
+        ax.hlines(level[turns], aside[turns], aside[turns - 1], color=LINK, linewidth=1.6)
+        return aside
 
     def _middles(self) -> Floats:
         """Return the level of the centre of gravity of each link."""
-        along = (self.level[:-1] - self.level[1:]) / self.base.length  # +1 or -1
-        middle: Floats = self.level[1:] + along * self.base.centroid
+        middle: Floats = self.level[1:] + self.along * self.base.centroid
         return middle
 
     def _bodies(self, ax: Axes, across: Floats) -> None:
         chain, level, system = self.base, self.level, self.system
         weight = np.broadcast_to(chain._compiled.weight, chain.size)
-        middle = self._middles()
-        heavy, floats = weight > 0, floating(system)
-        reach = math.sqrt(3) * chain.radius_of_gyration  # of a uniform rod of that inertia
+        middle, half = self._middles(), rods_of(chain)
+        heavy, floats, backward = weight > 0, floating(system), system._momentum(1.0) < 0
         named = np.isin(np.arange(chain.size), [*self._forms])
-        long = heavy & (reach > 0) & ~named
-        ax.vlines(across[long], (middle - reach)[long], (middle + reach)[long], color=LINK, linewidth=6.0, alpha=0.35)
+        long = heavy & (half > 0) & ~named
+        ax.vlines(across[long], (middle - half)[long], (middle + half)[long], **ROD)
         face = np.where(floats, "white", LINK)
         size = 20 + 60 * np.sqrt(weight / weight.max())
-        for k, (form, unit, wide) in self._forms.items():
-            down = float(np.sign(level[k] - level[k + 1]))
-            draw_form(ax, form, float(across[k]), float(level[k + 1]), down, float(chain.centroid[k]), unit, wide)
-        dots = heavy & ~named
+        for k, (form, unit, most) in self._forms.items():
+            draw_form(ax, form, across[k], most, partial(self._levels, k), unit, bool(backward[k]))
+        dots = heavy & ~named & ~long
         ax.scatter(across[dots], middle[dots], s=size[dots], c=face[dots], edgecolors=LINK, zorder=3)
-        ax.plot(across, level[1:], "o", color="white", markeredgecolor=LINK, markersize=4.0, zorder=4)
-        for sign, colour in ((1, FORWARD), (-1, BACKWARD)) if system.has_momentum else ():
-            spun = np.flatnonzero((np.sign(system._momentum(1.0)) == sign) & ~named)
-            ax.hlines(middle[spun], across[spun] - WHEEL, across[spun] + WHEEL, color=colour, linewidth=4.0, zorder=3)
-        for x, z, name, far in zip(across, middle, self.names(), self.beside(), strict=False):
+        ax.plot(across[:-1], level[1:-1], **JOINT)
+        for wheel in np.flatnonzero((system._momentum(1.0) != 0) & ~named).tolist():
+            ends = across[wheel] - WHEEL, across[wheel] + WHEEL
+            ax.hlines(middle[wheel], *ends, color=BACKWARD if backward[wheel] else FORWARD, linewidth=4.0, zorder=3)
+        far = self.beside()
+        for x, z, name in zip(across, middle, self.names(), strict=False):
             side = -1 if x < across.max() else 1  # to the left where links stand on the right
             beside: dict[str, Any] = {"ha": "left" if side > 0 else "right", "va": "center", "fontsize": "small"}
             ax.annotate(name, (x + side * far, z), xytext=(9 * side, 0), textcoords="offset points", **beside)
+
+
+def rods_of(base: Any) -> Floats:
+    """Return half the length of each body that is a uniform rod down to its lower pin, and 0 for the others."""
+    half = math.sqrt(3) * base.radius_of_gyration
+    return np.where(np.isclose(base.centroid + half, base.length, rtol=1e-9, atol=0.0), half, 0.0)
 
 
 def floating(system: System) -> NDArray[np.bool_]:
@@ -233,20 +248,21 @@ def floating(system: System) -> NDArray[np.bool_]:
 def plot_system(system: System, ax: Axes | None = None) -> Axes:
     """Draw the system at rest, true to scale along the axis.
 
-    returns: The drawing: pins, centres of gravity (larger dots are heavier) and names of up to 40 links. Inverted
-        links are thick, wheels are seen edge-on, bodies that float are hollow, and a cord is thicker where it is
-        heavier.
+    returns: The drawing: joints (small dots), bodies (larger dots are heavier), rods as bars from end to end, and
+        names of up to 40 links. Inverted links are thick, wheels are seen edge-on, bodies that float are hollow, and a
+        cord is thicker where it is heavier. Links whose names have a word such as ``bell`` or ``man`` are drawn as such.
 
     >>> rc.Chain(mass=[1.0, 2.0], length=[0.5, 0.3]).plot().get_ylabel()
     'depth below the support (m)'
     """
-    ax = axes_or_new(ax, 4.2, 6.0)
     straight = Straight(system)
+    left, right = straight.room()
+    ax = axes_or_new(ax, max(4.2, 0.9 + 1.25 * COLUMN * (left + right) / SPACING), 6.0)
     straight.at_rest(ax)
     straight.finish(ax)
-    ax.set_xlim(-1.3, max(1.3, straight.reach()))
+    ax.set_xlim(-left, right)
     if straight.few:
-        said = "dots: centres of gravity (larger = heavier);\nrings: pins; bars: rods of equal inertia"
+        said = "large dots: bodies (larger = heavier);\nsmall dots: joints; bars: rods"
         ax.set_xlabel(said, fontsize="small")
     ax.set_xticks([])
     if system._fluid:
@@ -255,15 +271,25 @@ def plot_system(system: System, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def beside_at_rest(system: System | None, ax: Axes | None, width: float, height: float) -> Axes:
-    """Return the axes of the caller, or new axes, beside the system at rest if its links are few."""
+def beside_at_rest(system: System | None, ax: Axes | None, width: float, height: float, across: float | None = None) -> Axes:
+    """Return the axes of the caller, or new axes, beside the system at rest if its links are few.
+
+    Both have the same levels if `across` is given, the metres across of a drawing in true proportions or 0 of another.
+    """
     bent = getattr(system, "span", None) is not None  # it cannot hang straight
     if ax is not None or system is None or bent or not Straight(system).few:
         return axes_or_new(ax, width, height)
     straight = Straight(system)
-    own = 1.1 + 0.7 * max(1.0, straight.reach() / 1.3)
-    left, right = new_figure(min(width + own, WIDEST), height).subplots(1, 2, width_ratios=[own, width])
+    own = 1.1 + 0.27 * sum(straight.room())
+    part = 1.1 * (across or 0.0) / float(np.ptp(straight._ends()))
+    share = across is not None and part < 2.0  # a very flat drawing has levels of its own
+    if across and share:  # 1.3 inches of the width are for labels
+        height = float(np.clip((WIDEST - own - 1.3) / part, 3.0, 5.2))
+        width = max(1.3 + height * part, 2.5)
+    figure = new_figure(min(width + own, 1.2 * WIDEST if share else WIDEST), height)
+    left, right = figure.subplots(1, 2, width_ratios=[own, width], sharey=share)
     plot_system(system, left).set_xlabel(straight.said)
+    right.tick_params(labelleft=True)
     axes: Axes = right
     return axes
 
@@ -291,7 +317,7 @@ def plot_modes(
 ) -> Axes:
     """Draw the system at rest and, beside it, the mode shapes, each along its own axis; rings mark the nodes.
 
-    Forward modes of a rig with flywheels are blue, backward ones orange; inverted links are thick.
+    Forward modes of a rig with flywheels are blue, backward ones red; inverted links are thick.
 
     modes: Numbers of the modes to draw (for a rig, of both directions); the six slowest of this result if left out.
     carried: Response of the same system at one speed with all pins, drawn first, with its support on its circle.
@@ -320,51 +346,53 @@ def plot_modes(
         way = ("\nforward" if rates[-1] > 0 else "\nbackward") if found.has_momentum else ""
         names.append(f"mode {found.number[row]}{way}")
     labels = [straight.said, *with_speeds(names, rates, units)]
-    columns = len(labels) + (not len(rows))
-    aside = max(0.0, straight.reach() + 1.1 - SPACING)  # so that the names do not reach the first shape
-    ax = axes_or_new(ax, _width(labels, columns), 6.0)
+    left, right = straight.room()
+    aside = max(0.0, right + 1.1 - SPACING)  # so that the names do not reach the first shape
+    wide = STRETCH if len({*straight.inverted.tolist()}) > 1 else 1.0
+    shapes = [wide * shape / np.abs(shape).max() for shape in np.real(found.shape[rows])]  # that of a cord is largest anywhere
+    room = [(-left, SPACING / 2), *[(-SPACING / 2, SPACING / 2)] * (before - 1)]
+    room += [(min(-1, shape.min()) - 0.3, max(1, shape.max()) + 0.3) for shape in shapes]
+    ends = aside + np.cumsum([high - low for low, high in room]) - left
+    ticks = [0.0, *(end - high for end, (_, high) in zip(ends[1:], room[1:], strict=True))]
+    ax = axes_or_new(ax, _width(labels, (ends[-1] + left) / SPACING), PLOT_HEIGHT + 1.2)
     straight.at_rest(ax)
-    ticks = [0.0, *[aside + SPACING * nth for nth in range(1, len(labels))]]
     if carried is not None:
         most = np.abs(carried.offset).max()  # nothing is drawn of a resonance: NaN
         straight.axis(ax, ticks[1])
         straight.links(ax, ticks[1] + carried.offset / most, CARRIED)
         ax.plot([ticks[1], ticks[1] + carried.support_radius / most], [0.0, 0.0], **ARM)
-    for row, at in zip(rows, ticks[before:], strict=True):
-        _draw_mode(ax, found, straight, int(row), at)
-    if not len(rows):
-        growth = float(found.other.growth_rate.max(initial=0.0))
-        said = f"falls over:\na disturbance\ngrows e times\nin {digits(1 / growth, 3)} s" if growth else "no steady\nmotion"
-        ax.text(ticks[-1] + SPACING, float(straight.level.mean()), said, ha="center", va="center")
+    nodes = found.nodes
+    for row, shape, at in zip(rows, shapes, ticks[before:], strict=True):
+        _draw_mode(ax, found, straight, int(row), shape, nodes[row], at)
     ax.set_xticks(ticks, labels)
-    ax.set_xlim(-SPACING / 2, aside + SPACING * (columns - 0.5))
+    ax.set_xlim(-left, ends[-1])
     straight.finish(ax)
-    if len(rows) or carried is not None:
-        ax.set_xlabel("offset from the axis, each to its own scale" + "; rings: nodes" * (columns > 3))
+    said = ["offset from the axis, each to its own scale"] * (len(ticks) > 1)
+    said += ["rings: nodes"] * any(line.get_gid() == "nodes" for line in ax.lines)
+    if not len(rows):
+        rate = float(found.other.growth_rate.max(initial=0.0)) / math.log(2)
+        said.append(f"unstable: a small push\ndoubles every {digits(1 / rate, 2)} s" if rate else "no steady motion")
+    ax.set_xlabel(("; " if len(ticks) > 4 else "\n").join(said))
     if system._fluid:
         ax.set_facecolor(FLUID)
     return ax
 
 
-def _width(labels: list[str], columns: int) -> float:
+def _width(labels: list[str], columns: float) -> float:
     """Return the inches of a figure whose labels do not meet: at most `WIDEST` if they are short."""
     longest = max([len(line) for label in labels for line in label.splitlines()])
     return max(min(1.2 + COLUMN * columns, WIDEST), 0.9 + LETTER_OF_LABEL * (longest + 1) * columns)
 
 
-def _draw_mode(ax: Axes, modes: Modes, straight: Straight, row: int, axis: float) -> None:
-    shape, system = modes.shape[row], straight.system
-    shape = shape / np.abs(shape).max()  # that of a cord with a tip may be largest anywhere
-    colour = HOUSE[(int(modes.number[row]) - 1) % len(HOUSE)]
+def _draw_mode(ax: Axes, modes: Modes, straight: Straight, row: int, shape: Floats, nodes: Floats, axis: float) -> None:
+    system, colour = straight.system, HOUSE[(int(modes.number[row]) - 1) % len(HOUSE)]
     if modes.has_momentum:
         colour = FORWARD if modes.angular_speed[row] > 0 else BACKWARD
     straight.axis(ax, axis)
     straight.links(ax, axis + shape, colour, f"mode {modes.number[row]}")
-    nodes = modes.nodes[row]
-    if nodes.size <= MOST_PINS_AS_DOTS and not straight.inverted.any():
-        levels = nodes if system._is_held else straight.level[0] - nodes
-        rings: dict[str, Any] = {"markersize": 7.0, "markerfacecolor": "white", "markeredgecolor": "black", "zorder": 3}
-        ax.plot(np.full(nodes.size, axis), levels, linestyle="none", marker="o", **rings)
+    if 0 < nodes.size <= MOST_PINS_AS_DOTS:
+        along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(straight.level)))])
+        ax.plot(np.full(nodes.size, axis), np.interp(nodes, along, straight.level), **RING)
     if system._support is not None and np.isfinite(system._support.stiffness):
         ax.plot([axis, axis + shape[-1]], [0.0, 0.0], color="0.3", linewidth=1.0, zorder=3)
         ax.plot(axis + shape[-1], 0.0, marker="s", **{**SUPPORT, "markersize": 6.0})
@@ -379,31 +407,36 @@ def plot_carried(found: Response, ax: Axes | None, pins: list[int], unit: SpeedU
     available = np.atleast_1d(found.pins)
     drawn = np.isin(available, pins)
     across[available[drawn]] = found.offset.reshape(-1)[drawn]
-    ax = beside_at_rest(found.system, ax, 5.0, 6.0)
+    ax = beside_at_rest(found.system, ax, 5.0, 6.0, across=0.0)
     straight.axis(ax, 0.0)
     if len(pins) == across.size:
         straight.links(ax, across, CARRIED)
     else:
         ax.plot(across, straight.level, "o", color=CARRIED)
     ax.plot([0.0, found.support_radius], [0.0, 0.0], **ARM)
-    straight.finish(ax, bodies=False)
+    straight.finish(ax)
     ax.set_xlabel(f"offset from the axis (m) at {unit.text(found.angular_speed.item())}")
     return ax
+
+
+def draw_spring(ax: Axes, start: float, end: float, tall: float) -> None:
+    """Draw a spring at the level 0 of a picture of so tall a system."""
+    x = end + (start - end) * np.concatenate([[1.0, 0.85], np.linspace(0.8, 0.3, 9), [0.25, 0.0]])
+    zigzag = np.concatenate([[0.0, 0.0], np.tile([1.0, -1.0], 5)[:9], [0.0, 0.0]])
+    ax.plot(x, 0.015 * tall * zigzag, color=LINK, linewidth=1.0, clip_on=False)
 
 
 def _draw_support(support: Support, ax: Axes, straight: Straight, across: float) -> None:
     """Draw the support of the uppermost pin: a firm point, a spring, an arm."""
     level = straight.level
     yields = bool(np.isfinite(support.stiffness))
-    wall = -0.65 if support.radius and yields else -1.0  # the spring starts where the arm ends
+    wall = -0.65 if support.radius and yields else -1.0 - straight.beside()  # the spring starts where the arm ends
     if support.radius:
         ax.plot([-1.0, -1.0], [level.max(), level.min()], **AXIS)
         ax.plot([-1.0, wall if yields else across], [0.0, 0.0], **ARM)
     if yields:
-        tall = np.ptp(level)
-        x = wall * np.concatenate([[1.0, 0.85], np.linspace(0.8, 0.3, 9), [0.25, 0.0]])
-        zigzag = np.concatenate([[0.0, 0.0], np.tile([1.0, -1.0], 5)[:9], [0.0, 0.0]])
-        ax.plot(x, 0.012 * tall * zigzag, color=LINK, linewidth=1.0, clip_on=False)
+        tall = float(np.ptp(level))
+        draw_spring(ax, wall, 0.0, tall)
         ax.plot([wall, wall], [-0.03 * tall, 0.03 * tall], color="black", linewidth=2.5, zorder=4, clip_on=False)
         ax.plot(0.0, 0.0, marker="s", **{**SUPPORT, "markersize": 8.0 if support.carriage else 4.0})
     else:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ..results.motions import Response, Swing
 
 MOST_CURVES = 4  # of pins, unless the caller chooses them
-MOST_MOMENTS = 9  # in a picture of shapes
+MOST_MOMENTS = 5  # in a picture of shapes
 
 
 @described(bound=True)
@@ -97,7 +97,7 @@ def plot_swing(
 ) -> Axes:
     """Draw the system at the given times, the offsets of pins against time, or their paths seen from above.
 
-    kind: ``"shapes"``: shapes from dark (early) to light (late), with enlarged offsets, at most nine; the usual one
+    kind: ``"shapes"``: shapes from dark (early) to light (late), with enlarged offsets, at most five; the usual one
         of a swing in a plane. ``"time"``: offsets against time, with momentum those along y dashed. ``"path"``:
         paths seen from above; the usual one, and only, with momentum.
     pins: For ``"time"`` and ``"path"``: numbers of the pins, 0 for the free end; for a cord, indices in
@@ -115,7 +115,8 @@ def plot_swing(
     kinds = ("path", "time") if turns else ("shapes", "time")
     kind = word(caller, "kind", kinds[0] if kind is None else kind, kinds)
     chosen, order = pins_among(caller, pins, range(found.offset.shape[1])), np.argsort(found.time)
-    ax = beside_at_rest(found.system, ax, *{"time": (7.0, 4.0), "path": (5.0, 5.0), "shapes": (5.0, 6.0)}[kind])
+    size = {"time": (7.0, 4.0), "path": (5.0, 5.0), "shapes": (5.0, 6.0)}[kind]
+    ax = beside_at_rest(found.system, ax, *size, across=0.0 if kind == "shapes" else None)
     if kind == "shapes":
         return _draw_moments(found, ax, order)
     arc, time = found.arc_length, found.time[order]
@@ -142,19 +143,24 @@ def plot_swing(
 
 def _draw_moments(found: Swing, ax: Axes, order: Whole) -> Axes:
     """Draw the shapes of a swing in a plane at some of its times."""
-    linked = found.arc_length is None
-    depth = Straight(found.system).level if linked else found.system.length - found.arc_length
+    arc, straight = found.arc_length, Straight(found.system)
+    level = straight.level if arc is None else np.interp(arc, [0.0, found.system.length], straight.level[[0, -1]])
     colours = require("matplotlib", "plot", "plotting").colormaps["viridis"]
-    marker = "o" if linked and depth.size <= MOST_PINS_AS_DOTS else ""
+    marker = "o" if arc is None and level.size <= MOST_PINS_AS_DOTS else ""
     ax.axvline(0.0, **AXIS)
+    straight.finish(ax)
+    ends = np.array(ax.get_ylim())
+    free = int(np.abs(ends - level[0]).argmin())  # 0: the free end is at the bottom, 1: at the top
+    ends[free] += 0.12 * (level[0] - level[-1])
+    ax.set_ylim(*ends)
     moments = order[np.unique(np.linspace(0, order.size - 1, min(MOST_MOMENTS, order.size)).round().astype(int))]
-    for shade, row in zip(np.linspace(0.0, 0.9, moments.size), moments, strict=True):
-        drawn, label = thinned(found.offset[row]), f"{found.time[row]:.4g} s"
-        line = {"color": colours(shade), "linewidth": 1.2, "marker": marker, "markersize": 2.5, "label": label}
-        ax.plot(found.offset[row][drawn], depth[drawn], **line)
-    ax.plot(0.0, 0.0, marker="v", color="black", markersize=7.0, zorder=4, clip_on=False)
-    ax.set_ylim(1.03 * depth.max(), -0.03 * depth.max())
-    ax.set(xlabel="distance from axis (m), not to scale", ylabel="depth below the support (m)")
-    if moments.size:
-        legend_outside(ax, title=f"{moments.size} of {order.size} times" if moments.size < order.size else None)
+    for shade, row in zip(np.linspace(0.0, 0.65, moments.size), moments, strict=True):
+        drawn, line = thinned(found.offset[row]), {"color": colours(shade), "linewidth": 1.2, "marker": marker}
+        ax.plot(found.offset[row][drawn], level[drawn], markersize=2.5, **line)
+        far = 10 + 12 * (np.sum(found.offset[moments, 0] < found.offset[row, 0]) % 2)  # neighbours are not on one line
+        said = {"ha": "center", "va": "center", "textcoords": "offset points", "color": colours(shade)}
+        ax.annotate(f"{found.time[row]:.4g} s", (found.offset[row, 0], level[0]), (0, (2 * free - 1) * far), **said)
+    straight.supports(ax, 0.0)
+    ax.margins(x=0.1)
+    ax.set_xlabel("distance from axis (m), not to scale")
     return ax

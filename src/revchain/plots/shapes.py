@@ -10,7 +10,7 @@ import numpy as np
 
 from ..closed_forms.table import described
 from ..systems.numbers import word
-from .modes import beside_at_rest
+from .modes import ARM, beside_at_rest, draw_spring
 from .style import AXIS, MOST_PINS_AS_DOTS, SpeedUnit, half_waves_style, keep_room, legend_outside, thinned
 
 if TYPE_CHECKING:
@@ -58,47 +58,58 @@ def plot_shapes(shapes: SteadyShapes, ax: Axes | None = None, *, speed: str = "r
     ('5 hanging shapes, proved complete', 'at 211.5 rpm')
     """
     unit = SpeedUnit("revchain.SteadyShapes.plot", speed)
-    ax = _draw_shapes(shapes, ax)
+    at = shapes.angular_speed if shapes else None
+    ax = _draw_shapes(shapes, ax, title=None if at is None else f"at {unit.text(at)}")
     ax.set_title(shapes._how_many())
-    if shapes and shapes.angular_speed is not None:
-        legend_outside(ax, title=f"at {unit.text(shapes.angular_speed)}")
     return ax
 
 
-def _draw_shapes(shapes: Sequence[SteadyShape], ax: Axes | None, more: str = "") -> Axes:
+def _draw_shapes(shapes: Sequence[SteadyShape], ax: Axes | None, more: str = "", title: str | None = None) -> Axes:
     """Draw a curve for each shape; dots mark the pins of links, of cords the free end. `more` ends each label."""
-    ax = beside_at_rest(shapes[0].system if len(shapes) else None, ax, 6.2, _fitting_height(shapes))
+    given, system = ax, shapes[0].system if len(shapes) else None
+    wide = max((float(np.ptp([0.0, *shape.offset])) for shape in shapes), default=0.0)
+    ax = beside_at_rest(system, ax, 6.2, _fitting_height(shapes, wide), across=wide)
+    held = any(hasattr(shape, "span") for shape in shapes)
+    up = 1.0 if held or (system is not None and system._stands.all()) else -1.0
     ax.axvline(0.0, **AXIS)
     named: set[int] = set()
-    origin = "support"
     for shape in shapes:
-        x, z = shape.offset, shape.height
+        x, z = shape.offset, up * shape.height
         colour, label = half_waves_style(shape.half_waves, named)
         linked = not hasattr(shape, "arc_length")
         marker = "o" if linked and x.size <= MOST_PINS_AS_DOTS else ""
         drawn = thinned(x) if linked else slice(None)
         label = label and label + more
         ax.plot(x[drawn], z[drawn], color=colour, linewidth=1.4, marker=marker, markersize=3.0, label=label)
-        if hasattr(shape, "span"):
-            origin = "lower end"
+        if held:
             ax.plot(x[[0, -1]], [0.0, shape.span], color="black", marker="o", linestyle="none", markersize=6.0)
         elif not linked:
             ax.plot(x[0], z[0], color=colour, marker="o", markersize=3.5)
-    if origin == "support":
-        for top in sorted({float(shape.offset[-1]) for shape in shapes} or {0.0}):
-            if top:
-                ax.plot([0.0, top], [0.0, 0.0], color="0.3", linewidth=1.0, zorder=1)
-            ax.plot(top, 0.0, marker="v", color="black", markersize=7.0, clip_on=False)
-    ax.set(xlabel="distance from axis (m)", ylabel=f"height above the {origin} (m)", aspect="equal")
-    keep_room(ax)
-    if named:
-        legend_outside(ax)
+    support = system._support if system is not None and not held else None
+    for top in () if held else sorted({float(shape.offset[-1]) for shape in shapes} or {0.0}):
+        arm = top if support is None else support.radius * np.sign(top)
+        ax.plot([0.0, arm], [0.0, 0.0], **ARM)
+        if arm != top:
+            draw_spring(ax, arm, top, float(np.ptp([0.0, *shapes[0].height])))
+        ax.plot(top, 0.0, marker="v" if arm == top else "s", color="black", markersize=7.0, clip_on=False)
+    what = "height above the lower end" if held else "height above the support" if up > 0 else "depth below the support"
+    ax.set(xlabel="distance from axis (m)", ylabel=f"{what} (m)")
+    if given is None and len(ax.get_shared_y_axes().get_siblings(ax)) > 1:  # beside the system at rest
+        ax.set_aspect("equal", adjustable="datalim")
+        ends = [*ax.get_ylim(), *ax.dataLim.intervaly]
+        ax.set_ylim(min(ends), max(ends))
+        ax.legend(loc="best", frameon=False, title=title)
+    else:
+        ax.set_aspect("equal")
+        keep_room(ax)
+        if named:
+            legend_outside(ax, title=title)
+    ax.yaxis.set_inverted(up < 0)
     return ax
 
 
-def _fitting_height(shapes: Sequence[SteadyShape]) -> float:
+def _fitting_height(shapes: Sequence[SteadyShape], wide: float) -> float:
     """Return the height in inches of a figure for curves of these proportions, some 5 inches wide at most."""
-    wide = max((np.ptp([0.0, *shape.offset]) for shape in shapes), default=0.0)
     tall = max((np.ptp([0.0, *shape.height]) for shape in shapes), default=1.0)
     return float(np.clip(1.2 + 5.0 * tall / wide, 3.4, 6.0)) if wide else 6.0
 
@@ -178,7 +189,7 @@ def _draw_branches(branches: Sequence[Branch], ax: Axes | None, quantity: str | 
     ax.set_axisbelow(True)
     if named:
         if births:
-            ax.plot([], [], "--", color="0.3", linewidth=1.6, label="isolated, from\nthe speed above")
+            ax.plot([], [], "--", color="0.3", linewidth=1.6, label="isolated: starts\nat the dotted line")
         if any(len(branch.folds) for branch in branches):
             ax.plot([], [], "D", color="0.3", markersize=5.0, markerfacecolor="none", label="fold")
         handles, labels = ax.get_legend_handles_labels()

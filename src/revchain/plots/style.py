@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-PALETTE = ("0072B2", "D55E00", "009E73", "CC79A7", "E69F00", "56B4E9", "000000")
-"""Colours that can be told apart without seeing red or green (Okabe and Ito 2008)."""
+PALETTE = ("0072B2", "D55E00", "009E73", "CC79A7", "B01F3C", "6B6B00", "000000")
+"""Colours that can be told apart without seeing red or green: four of Okabe and Ito (2008), and darker ones."""
 
 HOUSE = tuple(f"#{colour}" for colour in PALETTE)
 BLUE, ORANGE, GREEN, *_ = HOUSE
@@ -43,6 +43,7 @@ SPEED_UNITS = {  # what is measured in each unit, and the number of the unit for
     "s": ("period", 2 * np.pi),
 }
 WIDEST = 8.0  # inches, of a new figure
+MINUS = "\N{MINUS SIGN}"
 MOST_PINS_AS_DOTS = 40
 MOST_POINTS = 2000  # per curve: about the pixels of a large picture
 
@@ -74,7 +75,8 @@ class SpeedUnit:
     def text(self, speed: float) -> str:
         """A speed with its unit, such as ``36.99 rpm``; a period without the sign of its rotation."""
         number = self.of(speed)
-        return f"{abs(number) if self.unit == 's' else number:#.4g}".removesuffix(".") + f" {self.unit}"
+        sign = MINUS if number < 0 and self.unit != "s" else ""
+        return sign + f"{abs(number):#.4g}".removesuffix(".") + f" {self.unit}"
 
 
 CAPTION_UNITS = [SpeedUnit("captions", unit) for unit in ("rad/s", "rpm")]

@@ -319,7 +319,8 @@ def _searched(
                 value, bound = _root(found, left, right, off[left] < 0)
                 values[value] = bound
     nearest = min(values, key=lambda x: abs(_scale(datum, x) - _scale(datum, datum.present)), default=None)
-    heights = gravity / np.array(reached) ** 2
+    with np.errstate(divide="ignore"):  # a motion that only decays has the speed 0
+        heights = gravity / np.array(reached) ** 2
     return Tuned._made(
         None,
         status="undecided" if nearest is None else "found",

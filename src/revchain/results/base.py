@@ -195,13 +195,15 @@ class Result(Unchangeable):
         """Return whether everything was found and proved: what `bool(result)` is."""
         return not self._good or getattr(self, self._good, True) in (True, "success", "found")
 
+    _unused: Collection[str] = ()  # names of columns that this result does not need
+
     def _left_out(self) -> Collection[str]:
-        """Names of columns that a printed table leaves out, because they would take long to compute."""
-        return ()
+        """Names of columns that a printed table leaves out, because they are not needed or would take long to compute."""
+        return self._unused
 
     def _sheet(self, brief: bool = False) -> Sheet:
         """The data as columns; with `brief` only what a printed table shows."""
-        columns, facts, left_out = [], {}, self._left_out() if brief else ()
+        columns, facts, left_out = [], {}, self._left_out() if brief else self._unused
         for name, field in self._fields.items():
             if field.axes is not None and (field.heading or not brief):
                 if name not in left_out and getattr(self, name, None) is not None:

@@ -208,6 +208,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
     """
 
     __slots__ = ()
+    _unused = ("exponent", "damping_ratio", "decay_time", "error_estimate")  # without dashpots
     system: Field[Any] = Field("The system.")
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", fact=True)
     number: Field[Whole] = Field(
@@ -268,7 +269,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         _nodes,
         axes=("node",),
         unit="m",
-        heading=lambda m: _heading_of_nodes(m),
+        heading=lambda m: f"nodes (m from the {'lower' if m.system._kind.startswith('held') else 'free'} end)",
         shown=lambda m: _texts(m.nodes),
     )
     exponent: Field[Complex] = Field(
@@ -282,12 +283,12 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         "Damping ratio of each mode, ``-exponent.real / abs(exponent)``, shape (k,): 0 without dashpots, 1 for a motion that "
         "only decays, negative for one that grows.",
         lambda m: -m.exponent.real / np.abs(m.exponent),
-        heading=lambda m: "damping ratio" if m._is_damped else "",
+        heading="damping ratio",
     )
     decay_time: Field[Floats] = Field(
         "Time in which each motion decays to 1/e, s, shape (k,): infinite without dashpots, negative if it grows.",
         lambda m: _over(-1.0, m.exponent.real),
-        heading=lambda m: "decay time" if m._is_damped else "",
+        heading="decay time",
         unit="s",
     )
     error_estimate: Field[Floats] = Field(
@@ -507,6 +508,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         """
         from .sensitivity import uncertainty_of_modes
 
+        _refuse_pins(self, "uncertainty")
         given = {name: value for name, value in locals().items() if name in _DEVIATIONS and value is not None}
         found: Uncertainty = uncertainty_of_modes(self, given)
         return found
@@ -602,15 +604,17 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         return super()._from_parts()
 
     def _state(self) -> dict[str, Any]:
-        if not (self.system._kind.endswith("cord") or self._is_damped):
+        if self._is_damped:
+            return {**super()._state(), "_unused": self._unused}
+        if not self.system._kind.endswith("cord"):
             _ = self.nodes  # of a cord they follow from its heights, as shapes do
         return super()._state()
 
     def _left_out(self) -> Collection[str]:
         if self._is_damped:
-            return ()
+            return self._unused
         slow = "nodes" not in self.__dict__ and self.system.size * self.conical_height.size > MOST_OFFSETS
-        return ("nodes",) if slow else ()
+        return (*self._unused, "nodes") if slow else self._unused
 
     @property
     def _remarks(self) -> str:
@@ -678,12 +682,6 @@ def rest(values: Numbers, second: Floats | None) -> Floats | None:
     return left
 
 
-def _heading_of_nodes(modes: Modes) -> str:
-    if modes._is_damped:
-        return ""
-    return f"nodes (m from the {'lower' if modes.system._kind.startswith('held') else 'free'} end)"
-
-
 def _over(number: Any, values: Any) -> Any:
     """The quotient; infinite where the value is 0, of either sign."""
     with np.errstate(divide="ignore"):
@@ -708,8 +706,17 @@ def _others(modes: Modes) -> OtherModes:
     return OtherModes._made(None, **dict(zip(names, found, strict=True)))
 
 
+def _refuse_pins(modes: Modes, name: str) -> None:
+    rig = modes.system
+    if rig._kind == "rig" and (rig.is_damped or rig.pins is not None):
+        raise UnavailableError(
+            f"revchain.Modes.{name}: cannot be found for a rig with springs or dashpots; call revchain.modes with another datum"
+        )
+
+
 def _sensitivity(modes: Modes) -> Sensitivity:
     from .sensitivity import sensitivity_of_modes
 
+    _refuse_pins(modes, "sensitivity")
     found: Sensitivity = sensitivity_of_modes(modes)
     return found

@@ -64,7 +64,7 @@ class Datum:
     @property
     def quantity(self) -> str:
         """The name of the quantity, which decides the unit of the datum."""
-        return self.path.rpartition(".")[2]
+        return ("pin_" if self.path.startswith("pins[") else "") + self.path.rpartition(".")[2]
 
     @property
     def has_scale(self) -> bool:

@@ -283,6 +283,8 @@ def _checked(caller: str, end: Support, held: Held) -> Support:
         )
     if held.tension is not None and end.radius:
         raise ValueError(f"{caller} end must be on the axis under a tension; give the span, got radius {end.radius:g}")
+    if end.stiffness == 0 or end.damping:
+        raise ValueError(f"{caller} end must be firm or on a spring, without a dashpot; give a stiffness, got {end}")
     if end.carriage:
         chain: Any = held.system
         like(caller, chain, end._given.get("mass"), end._given.get("weight"))

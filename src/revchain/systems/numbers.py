@@ -29,12 +29,15 @@ STANDARD_GRAVITY = 9.80665
 """Standard acceleration of gravity in m/s^2 (exact by definition, CGPM 1901)."""
 
 
-def floats(caller: str, name: str, value: ArrayLike | None) -> Floats:
-    """`value` as a float64 array, numbers with units in SI; a ValueError refuses anything but real numbers."""
+def floats(caller: str, name: str, value: ArrayLike | None, quantity: str = "") -> Floats:
+    """`value` as a float64 array, numbers with units in SI; a ValueError refuses anything but real numbers.
+
+    `quantity` names the kind of unit, if the name does not.
+    """
     if type(value) is np.ndarray and value.dtype is _FLOAT64 and value.flags.c_contiguous:
         return value  # as fast as can be: there is nothing to convert
     if not isinstance(value, float) and units.has_units(value := units.unpacked(value)):
-        value = units.in_si(caller, name, value)
+        value = units.in_si(caller, name, value, quantity)
     array = array_of(value)
     if array.dtype == object and all(isinstance(x, Real) and not isinstance(x, bool) for x in array.flat):
         with suppress(OverflowError):

@@ -215,7 +215,7 @@ class Pin(_Fitting):
     def __init__(self, *, stiffness: ArrayLike = 0.0, damping: ArrayLike = 0.0) -> None:
         caller = "revchain.Pin"
         given = {"stiffness": stiffness, "damping": damping}
-        columns = {name: floats(caller, f"pin_{name}", value) for name, value in given.items()}
+        columns = {name: floats(caller, name, value, f"pin_{name}") for name, value in given.items()}
         for name, column in columns.items():
             refuse_where(~np.isfinite(column), column, f"{caller}: {name} must be finite")
             refuse_where(column < 0, column, f"{caller}: {name} must not be negative")

@@ -84,15 +84,15 @@ def has_units(value: Any) -> bool:
     return isinstance(value, list | tuple) and any(map(has_units, value))
 
 
-def in_si(caller: str, name: str, value: Any) -> Any:
-    """`value` with all its numbers in SI units; a ValueError if a unit does not fit the quantity `name`."""
+def in_si(caller: str, name: str, value: Any, quantity: str = "") -> Any:
+    """`value` with all its numbers in SI units; a ValueError if a unit does not fit the quantity, or what `name` tells."""
     value = unpacked(value)
     if isinstance(value, list | tuple):
-        return [in_si(caller, name, item) for item in value]
+        return [in_si(caller, name, item, quantity) for item in value]
     if not isinstance(value, str) and not hasattr(value, "dimensionality"):
         return value
     words = re.split(r"[ \[(]", name)[0].split("_")  # "lower_radius_of_gyration" is a radius of gyration
-    quantity = next((known for k in range(len(words)) if (known := "_".join(words[k:])) in SI), name)
+    quantity = quantity or next((known for k in range(len(words)) if (known := "_".join(words[k:])) in SI), name)
     if quantity not in SI:
         raise ValueError(f"{caller}: {name} must be a number without a unit, got {str(value)!r}")
     try:

@@ -77,26 +77,27 @@ function addLink(parent, link, to, from, { tall, ball, colour, others, odd }) {
   }
   const along = link.along * length, body = table.bodies[link.form];
   const end = body?.hangs ? at(0, along - body.hangs * tall, 0) : to;
-  bar(parent, end, from, (link.stands ? THICK : link.size ? THIN : THIN / 2) * tall, paint(link.size ? colour : GREY.axis));
+  if (!body?.bare) {
+    bar(parent, end, from, (link.stands ? THICK : link.size ? THIN : THIN / 2) * tall, paint(link.size ? colour : GREY.axis));
+  }
   if (body) {
     const { gyration } = link, rim = Math.max(Math.SQRT2 * gyration, RIM * tall);
     const unit = { tall, length, rim, gyration }[body.unit];
     const spin = link.ahead < 0 ? "back" : "ahead";
-    const drawn = (pieces, start) => pieces.forEach(([form, own, [x, y, z], scale, tilt]) => {
+    const start = Math.max(along - (body.above ?? 0) * unit, 0);
+    for (const [form, own, [x, y, z], scale, tilt] of [...body.pieces, ...body.solid ?? []]) {
       const shade = table.colours[own] ?? table.colours[spin];
       piece(form, shade, [x * unit, start + y * unit, z * unit], scale.map((part) => part * unit), tilt);
-    });
-    drawn(body.pieces, body.unit === "length" ? 0 : along);
-    drawn(body.at_pin ?? [], 0);
+    }
     return;
   }
   if (!link.size) return;
-  if (link.rod) {
-    const half = link.rod * length;
-    bar(parent, at(0, along - half, 0), at(0, along + half, 0), 1.8 * THIN * tall, paint(colour));
-  }
-  if (!link.plain) piece("ball", GREY.body, [0, along, 0], Array(3).fill(ball * Math.max(link.size, 0.12)));
+  if (isRod(link)) bar(parent, at(0, along - link.rod * length, 0), to, 1.8 * THIN * tall, paint(colour));
+  else if (!link.plain) piece("ball", GREY.body, [0, along, 0], Array(3).fill(ball * Math.max(link.size, 0.12)));
 }
+
+/** Whether the body is a uniform rod that ends at the lower pin. */
+const isRod = ({ form, along, rod }) => !form && rod && Math.abs(along + rod - 1) < 1e-6;
 
 /** An arc of radius 1 that fades away. */
 const arc = new BufferGeometry(), places = [], shades = [];
@@ -141,7 +142,10 @@ export function chainFigure({ pins, links, arm, springs, carriage, top, floor, c
     if (carriage && !others) put(group, "box", GREY.body, support, [0.09 * tall, 0.025 * tall, 0.06 * tall]);
     put(group, "ball", GREY.support, support, Array(3).fill(0.5 * BALL * tall));
     if (links.length <= 12 && links.every(({ form }) => form !== "ring")) {
-      for (const joint of points.slice(1, -1)) put(group, "ball", GREY.support, joint, Array(3).fill(1.6 * THIN * tall));
+      points.slice(1, -1).forEach((joint, k) => {
+        const wide = (isRod(links[k]) ? 2.8 : 1.6) * THIN * tall;
+        put(group, "ball", GREY.support, joint, Array(3).fill(wide));
+      });
     }
     if (arm) bar(group, axis, end, 1.3 * THIN * tall, GREY.support);
     for (const from of springs ? held : []) {
