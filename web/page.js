@@ -5,7 +5,7 @@ const $ = (id) => document.getElementById(id);
 const MOST_CARDS = 60;
 const VERDICT_WORDS = {
     minimum: 'stable',
-    'spectrally stable': 'stable only without friction',
+    'spectrally stable': 'friction may upset it',
     unstable: 'unstable',
     undecided: 'stability open',
 };
@@ -211,7 +211,7 @@ function showShapes() {
     else
         write(
             said,
-            `${plural(list.length, 'shape')} at ${inUnit(state.speed)}${
+            `${plural(list.length, 'shape')} at ${inUnit(state.speed)}${state.radius > 0 ? '' : ', beside the straight one'}${
                 shapes.complete
                     ? '. Proved: at this speed there are no others.'
                     : '. There may be others: the search ended at its limit, or the speed is that of a mode.'

@@ -729,7 +729,8 @@ def damping():
     axes.plot(0 * free, free, "o", color="black", label="no dashpots")
     for k, speed in enumerate(free, 1):
         axes.text(0.15, speed, f"mode {k}", va="center")
-    axes.text(-9.5, 0.3, "only decays", color=RED, ha="center")
+    axes.set_title("Three weights: along each curve the damping grows, from the dot on")
+    axes.text(-9.5, 0.3, "no swing, only decay", color=RED, ha="center")
     axes.set(xlim=(-12, 1.6), ylim=(-0.4, 9), xlabel="real part of $s$ (1/s): decay", ylabel="imaginary part (rad/s): swing")
     print(f"damping: {len(found[0])} modes at first, {len(found[-1])} exponents at last")
     return figure

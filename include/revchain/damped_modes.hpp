@@ -13,11 +13,12 @@
 
 /// Modes of a rig with dashpots (small amplitude): motions that decay, or grow, as exp(s t).
 ///
-///     const revchain::Chain<double> chain({revchain::plummet(9.81, 1.0)});      // 1 kg on 1 m
-///     const revchain::Rig rig(chain, {.pins = {{.damping = 0.2}}});             // N m s/rad
+///     const revchain::Chain<double> chain({revchain::plummet(9.81, 1.0)});
+///     const revchain::Rig rig(chain, {.pins = {{.damping = 0.2}}});  // N m s/rad
 ///     const auto m = revchain::damped_modes(rig, {.gravity = 9.81});
-///     m.exponent[0];     // -0.1 + 3.13050 i, 1/s: it swings at 3.1305 rad/s and decays in 10 s
-///     m.damping_ratio(0);  // 0.0319275
+///     m.exponent[0].real();     // -0.1: it decays to 1/e in 10 s
+///     m.exponent[0].imag();     // 3.1305 rad/s: it swings at this speed
+///     m.damping_ratio(0);       // 0.0319275
 namespace revchain::inline REVCHAIN_BUILD {
 
 struct DampedModesOptions {

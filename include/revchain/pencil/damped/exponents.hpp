@@ -149,12 +149,33 @@ F dot(const std::vector<F>& x, const std::vector<F>& y) {
     return sum;
 }
 
+/// Returns true if the last unknown is the offset of a free trolley without a dashpot.
+REVCHAIN_LAZY
+bool keeps_momentum(const DampedPencil& pencil) {
+    const Wide<double> none(0.0);
+    const Joint<Wide<double>>& end = pencil.joints.back();
+    return end.lever == none && end.damping == none && pencil.elements.back().stiffness == none;
+}
+
+/// Sets the offset of such a trolley so that the momentum is 0. For slow motions its equation of
+/// motion, which has the factor s^2, determines it badly.
+template <class F>
+void set_trolley(const DampedPencil& pencil, std::vector<F>& q) {
+    if (!keeps_momentum(pencil)) return;
+    const F none(Wide<double>(0.0)), one(Wide<double>(1.0));
+    const JointFactors<F> mass{none, none, none, one};
+    std::vector<F> unit(q.size(), none);
+    unit.back() = one, q.back() = none;
+    q.back() = none - applied(pencil, mass, q).back() / applied(pencil, mass, unit).back();
+}
+
 /// Sets the exponent from the vector by the symmetric Rayleigh quotient, q^T Q(s) q = 0, in two
 /// words.
 REVCHAIN_LAZY
 void set_exponent(const DampedPencil& pencil, DampedRoot& root) {
     using W = Wide<double>;
     const ComplexWord unit(W(0.0), W(1.0));
+    set_trolley(pencil, root.q);
     for (int round = 0; round < 2; ++round) {
         const auto off = applied(pencil, damped_factors(root.s, unit), root.q);
         const auto slope = applied(pencil, damped_factors(root.s, unit, true), root.q);
@@ -171,6 +192,7 @@ void set_exponent(const DampedPencil& pencil, DampedRoot& root) {
     root.off.clear();
     for (const ComplexWord& each : applied(pencil, damped_factors(root.s, unit), root.q))
         root.off.emplace_back(each);
+    if (keeps_momentum(pencil)) root.off.back() = 0.0;  // but for the rounding of the offset
 }
 
 /// Returns the refined exponent next to `start`, with its vector from inverse iteration.
@@ -191,6 +213,7 @@ DampedRoot refined(const DampedPencil& pencil, const Complex& start) {
         for (const Rough& each : q) largest = std::max(largest, std::abs(each));
         if (!std::isfinite(largest) || largest == 0) break;
         for (Rough& each : q) each = Complex(each) / largest;
+        set_trolley(pencil, q);
         load = applied(pencil, damped_factors(s, i, true), q);
         const Rough slope = dot(q, load);
         const Rough step = dot(q, applied(pencil, damped_factors(s, i), q)) / slope;
@@ -218,6 +241,7 @@ void sharpen(const DampedPencil& pencil, DampedRoot& root) {
         for (const ComplexWord& each : q) largest = std::max(largest, size_of(each));
         if (!std::isfinite(largest) || largest == 0) return;
         for (ComplexWord& each : q) each = each / ComplexWord(Wide<double>(largest));
+        set_trolley(pencil, q);
     }
     root.q = std::move(q);
     set_exponent(pencil, root);
