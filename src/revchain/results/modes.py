@@ -392,7 +392,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
 
     @property
     def _is_damped(self) -> bool:
-        return self.system._kind == "rig" and self.system.is_damped
+        return self.system._kind == "rig" and bool(self.system.is_damped)
 
     def __getitem__(self, index: int) -> Row:
         try:

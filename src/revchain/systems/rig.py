@@ -488,9 +488,13 @@ class Rig(System):
         caller = "revchain.Rig"
         compiled(caller, chain)
         word(caller, "fluid", fluid, FLUIDS)
-        fittings = {"support": (support, Support), "flywheels": (flywheels, Flywheel), "displaced": (displaced, Displaced)}
-        fittings["pins"] = (pins, Pin)
-        for name, (fitting, kind) in fittings.items():
+        fittings: tuple[tuple[str, _Fitting | None, type[_Fitting]], ...] = (
+            ("support", support, Support),
+            ("flywheels", flywheels, Flywheel),
+            ("displaced", displaced, Displaced),
+            ("pins", pins, Pin),
+        )
+        for name, fitting, kind in fittings:
             if fitting is not None and not isinstance(fitting, kind):
                 raise TypeError(f"{caller}: {name} must be a revchain.{kind.__name__}, got {shown(fitting)}")
             if fitting is not None and ("mass" in fitting._given or "weight" in fitting._given):
