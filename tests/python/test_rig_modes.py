@@ -383,6 +383,6 @@ def test_picture():
     rig = rigged(rc.Chain.uniform_rods(6, length=2.0), momentum=0.1, inverted=[True] * 2 + [False] * 4)
     ax = rc.modes(rig).plot(modes=[1, 2])
     labels = [label.get_text() for label in ax.get_xticklabels()]
-    assert len(labels) == 5 and labels[0] == "at rest"
-    assert labels[1].startswith("mode 1\nbackward\n-2.657 rpm") and labels[2].startswith("mode 1\nforward\n")
+    assert len(labels) == 5 and labels[0].strip() == "at rest"
+    assert labels[1].startswith("mode 1\nbackward\n−2.657 rpm") and labels[2].startswith("mode 1\nforward\n")
     ax.figure.savefig("/dev/null", format="png")

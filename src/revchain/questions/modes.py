@@ -271,7 +271,7 @@ def _of_damped_rig(rig: Rig, asked: _Asked, many: int | None) -> Modes:
     given |= {"exponent": exponent, "error_bound": bound, "speed_error_bound": bound, "error_estimate": estimate}
     given |= {"shape": shape, "available": (available, 0), "rigid": rigid, "complete": complete, "status": status}
     given |= {"direction": np.where(speed < 0, -1, 1), "has_momentum": rig.has_momentum, "method": "exponents"}
-    given["_unused"] = ("nodes",)  # no point stays on the axis
+    given |= {"_is_damped": True, "_unused": ("nodes",)}  # no point stays on the axis
     return Modes._made(None, system=rig, gravity=g, rtol=asked.rtol, **given)
 
 

@@ -209,6 +209,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
 
     __slots__ = ()
     _unused = ("exponent", "damping_ratio", "decay_time", "error_estimate")  # without dashpots
+    _is_damped: bool = False
     system: Field[Any] = Field("The system.")
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", fact=True)
     number: Field[Whole] = Field(
@@ -389,10 +390,6 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
 
     def __len__(self) -> int:
         return int((self.exponent if self._is_damped else self.conical_height).size)
-
-    @property
-    def _is_damped(self) -> bool:
-        return self.system._kind == "rig" and bool(self.system.is_damped)
 
     def __getitem__(self, index: int) -> Row:
         try:
@@ -605,7 +602,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
 
     def _state(self) -> dict[str, Any]:
         if self._is_damped:
-            return {**super()._state(), "_unused": self._unused}
+            return {**super()._state(), "_unused": self._unused, "_is_damped": True}
         if not self.system._kind.endswith("cord"):
             _ = self.nodes  # of a cord they follow from its heights, as shapes do
         return super()._state()
