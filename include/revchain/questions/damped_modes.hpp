@@ -172,7 +172,8 @@ DampedModes damped_modes(const Rig& rig, const DampedModesOptions& options) {
     };
     if (system.inertia && !all_within(0x1p-60)) {
         for (pencil::DampedRoot& root : roots) pencil::sharpen(system.pencil(), root);
-        radius = damped_radii(system, roots, true);
+        radius = damped_radii(system, roots, false);
+        if (!all_within(0x1p-60)) radius = damped_radii(system, roots, true);
     }
     DampedModes result;
     result.first = options.first, result.has_momentum = system.momentum;
