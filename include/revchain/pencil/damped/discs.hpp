@@ -15,19 +15,11 @@ namespace revchain::inline REVCHAIN_BUILD::pencil {
 REVCHAIN_LAZY
 double sizes_norm(const DampedPencil& pencil, const JointFactors<double>& x,
                   const std::vector<Complex>& q) {
-    struct Size {
-        double value = 0;
-        Size(double y) : value(y) {}  // NOLINT(google-explicit-constructor)
-        explicit Size(const Wide<double>& y) : value(static_cast<double>(y)) {}
-        Size operator+(const Size& y) const { return value + y.value; }
-        Size operator-(const Size& y) const { return value - y.value; }
-        Size operator*(const Size& y) const { return value * y.value; }
-    };
-    std::vector<Size> sizes;
+    std::vector<Number> sizes;
     for (const Complex& each : q) sizes.emplace_back(std::abs(each));
-    const JointFactors<Size> factors{x.stiffness, x.spin, x.damping, x.mass};
+    const JointFactors<Number> factors{x.stiffness, x.spin, x.damping, x.mass};
     double sum = 0;
-    for (const Size& each : applied<true>(pencil, factors, sizes)) sum += each.value * each.value;
+    for (const Number& each : applied<true>(pencil, factors, sizes)) sum += each.value * each.value;
     return std::sqrt(sum) * 1.01;
 }
 

@@ -48,17 +48,19 @@ struct DampedRoot {
     bool real = false;
 };
 
+/// A double that can be made of a double word, as `applied` needs.
+struct Number {
+    double value = 0;
+    Number(double y) : value(y) {}  // NOLINT(google-explicit-constructor)
+    explicit Number(const Wide<double>& y) : value(static_cast<double>(y)) {}
+    Number operator+(const Number& y) const { return value + y.value; }
+    Number operator-(const Number& y) const { return value - y.value; }
+    Number operator*(const Number& y) const { return value * y.value; }
+};
+
 /// Returns a matrix of the family that takes these factors.
 REVCHAIN_LAZY
 Matrix<double> dense(const DampedPencil& pencil, const JointFactors<double>& x) {
-    struct Number {  // a double made of a double word
-        double value = 0;
-        Number(double y) : value(y) {}  // NOLINT(google-explicit-constructor)
-        explicit Number(const Wide<double>& y) : value(static_cast<double>(y)) {}
-        Number operator+(const Number& y) const { return value + y.value; }
-        Number operator-(const Number& y) const { return value - y.value; }
-        Number operator*(const Number& y) const { return value * y.value; }
-    };
     const Index n = pencil.size();
     Matrix<double> result(n, n);
     std::vector<Number> unit(static_cast<std::size_t>(n), Number(0.0));
