@@ -354,7 +354,8 @@ def plot_modes(
     room += [(min(-1, shape.min()) - 0.3, max(1, shape.max()) + 0.3) for shape in shapes]
     ends = aside + np.cumsum([high - low for low, high in room]) - left
     ticks = [0.0, *(end - high for end, (_, high) in zip(ends[1:], room[1:], strict=True))]
-    ax = axes_or_new(ax, _width(labels, (ends[-1] + left) / SPACING), PLOT_HEIGHT + 1.2)
+    height = PLOT_HEIGHT + 1.2 if len(labels) > 1 else 0.75 * PLOT_HEIGHT  # of one column the picture would be a tower
+    ax = axes_or_new(ax, _width(labels, (ends[-1] + left) / SPACING), height)
     straight.at_rest(ax)
     if carried is not None:
         most = np.abs(carried.offset).max()  # nothing is drawn of a resonance: NaN
@@ -367,7 +368,9 @@ def plot_modes(
     ax.set_xticks(ticks, labels)
     ax.set_xlim(-left, ends[-1])
     straight.finish(ax)
-    said = ["offset from the axis, each to its own scale"] * (len(ticks) > 1)
+    hangs_aside = system._support is not None and system._support.radius and carried is None
+    place = "where it hangs" if hangs_aside else "the axis"
+    said = [f"offset from {place}, each to its own scale"] * (len(ticks) > 1)
     said += ["rings: nodes"] * any(line.get_gid() == "nodes" for line in ax.lines)
     if not len(rows):
         rate = float(found.other.growth_rate.max(initial=0.0)) / math.log(2)
