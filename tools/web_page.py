@@ -27,29 +27,16 @@ WEB = ROOT / "web"
 STORIES = json.loads((WEB / "stories.json").read_text(encoding="utf-8"))  # a sentence and two things to try for each
 LOWEST = {"swing_carousel": "seat"}  # forms of free ends that have no name
 SCRIPTS = ("state.js", "client.js", "draw.js", "controls.js", "page.js")
-# Scenes that the page shows, in its order. It has no fluids, no held ends and no 10,000 links.
-PRESETS = [
-    "two_weights",
-    "crane_hook_block",
-    "bernoulli_chain",
-    "watch_chain",
-    "ball_on_chain",
-    "plucked_chain",
-    "rods_on_threads",
-    "stick_on_string",
-    "swing_carousel",
-    "chair_o_plane",
-    "bell_and_clapper",
-    "bell_on_soft_frame",
-    "clamped_bell",
-    "jointed_rod",
+# Scenes that the page shows, in the groups and the order of its list. It has no fluids, no held ends and no 10,000 links.
+GROUPS = {
+    "Weights and chains": "two_weights bernoulli_chain plucked_chain weight_ratio ball_on_chain watch_chain",
+    "Rods and loads": "stick_on_string rods_on_threads jointed_rod crane_hook_block",
+    "Bells and moving supports": "clamped_bell bell_and_clapper bell_on_soft_frame swing_carousel chair_o_plane "
     "carriage_on_springs",
-    "broomstick",
-    "acrobat",
-    "bicycle_wheels",
-    "two_gyrostats",
-    "weight_ratio",
-]
+    "Balancing and spinning": "broomstick acrobat bicycle_wheels two_gyrostats",
+}
+GROUP_OF = {name: group for group, names in GROUPS.items() for name in names.split()}
+PRESETS = list(GROUP_OF)
 
 
 def preset(name: str) -> dict[str, Any]:
@@ -76,6 +63,7 @@ def preset(name: str) -> dict[str, Any]:
     stiffness = None if np.isinf(support.stiffness) else support.stiffness
     return {
         "name": name,
+        "group": GROUP_OF[name],
         "title": scene.title,
         **STORIES[name],  # may have a shorter title
         "parts": parts,

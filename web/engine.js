@@ -99,7 +99,7 @@ const tasks = {
         const shapes = findShapes(links, request.speed, request.budget);
         reply({shapes});
         const share = Math.max(1, Math.floor(400 / links));
-        for (let i = 0; links <= 50 && i < shapes.shapes.length && i < 200; i += share)
+        for (let i = 0; links <= request.mostJudged && i < shapes.shapes.length && i < 200; i += share)
             judgeShapes(shapes, i, Math.min(i + share, shapes.shapes.length));
         reply({shapes, judged: true});
     },

@@ -10,19 +10,11 @@ const VERDICT_WORDS = {
     undecided: 'stability open',
 };
 const CROSSINGS = ['', 'crosses the axis once', 'crosses the axis twice'];
-const MOST_JUDGED = 50; // links of a chain whose stability is computed, as in engine.js
 /** The free end of a chain by the form of its lowest link. */
 const ENDS = {seat: 'chair', crate: 'load', jar: 'jar', clapper: 'clapper'};
-/** The list of examples in groups. */
-const GROUPS = {
-    'Weights and chains': 'two_weights bernoulli_chain plucked_chain weight_ratio ball_on_chain watch_chain',
-    'Rods and loads': 'stick_on_string rods_on_threads jointed_rod crane_hook_block',
-    'Bells and moving supports':
-        'clamped_bell bell_and_clapper bell_on_soft_frame swing_carousel chair_o_plane carriage_on_springs',
-    'Balancing and spinning': 'broomstick acrobat bicycle_wheels two_gyrostats',
-};
-/** Where questions take too long for a slider: links of a chain whose shapes are listed and whose diagram is proved. */
-const REQUEST = {mostLinks: 200, budget: 4e5, proofLinks: 24, lists: 16, listBudget: 3e6, proofBudget: 1e6}; // as in Python
+/** Where questions take too long for a slider: links of a chain whose shapes are listed, whose stability is computed and
+ * whose diagram is proved. */
+const REQUEST = {mostLinks: 200, mostJudged: 50, budget: 4e5, proofLinks: 24, lists: 16, listBudget: 3e6, proofBudget: 1e6}; // as in Python
 
 let state,
     links,
@@ -281,7 +273,7 @@ function showDiagram() {
     else
         write(
             said,
-            `${diagram.branches.length === 1 ? '1 family' : `${diagram.branches.length} families`} of shapes up to ${inUnit(top)}${wordsOf(diagram)}${links.length > MOST_JUDGED ? '' : ' ● stable, ○ not.'} Click or use the arrow keys.`,
+            `${diagram.branches.length === 1 ? '1 family' : `${diagram.branches.length} families`} of shapes up to ${inUnit(top)}${wordsOf(diagram)}${links.length > REQUEST.mostJudged ? '' : ' ● stable, ○ not.'} Click or use the arrow keys.`,
         );
     const [ariaValueNow, ariaValueMax] = [state.speed ?? 0, top].map((speed) => digits(speed * UNITS[state.unit]));
     Object.assign($('diagram'), {ariaValueNow, ariaValueMax, ariaValueText: inUnit(state.speed ?? 0)});
@@ -307,7 +299,7 @@ function wordsOf({complete, tried, tries}) {
 
 /** What is known of a shape's stability, as a sentence. */
 function stabilityOf({verdict, growth, links}) {
-    if (links.length > MOST_JUDGED) return `Its stability is not computed: it has more than ${MOST_JUDGED} links.`;
+    if (links.length > REQUEST.mostJudged) return `Its stability is not computed: it has more than ${REQUEST.mostJudged} links.`;
     if (verdict === 'unstable')
         return `Unstable: a small push doubles every ${digits(Math.LN2 / (growth * Math.abs(state.speed)), 2)} s.`;
     if (verdict === 'minimum') return 'Stable: after a small push it stays near this shape, with friction at the pins, too.';
@@ -498,10 +490,13 @@ function dragged(canvas, move) {
 }
 
 function listen() {
-    const option = (value) => element('option', {value, textContent: presets.find(({name}) => name === value).title});
+    const optionsOf = (label) =>
+        presets
+            .filter(({group}) => group === label)
+            .map(({name, title}) => element('option', {value: name, textContent: title}));
     $('preset').replaceChildren(
         element('option', {value: '', textContent: 'Your own chain', disabled: true}),
-        ...Object.entries(GROUPS).map(([label, names]) => element('optgroup', {label}, ...names.split(' ').map(option))),
+        ...[...new Set(presets.map(({group}) => group))].map((label) => element('optgroup', {label}, ...optionsOf(label))),
     );
     $('preset').onchange = () => open(presetState($('preset').value));
     $('add').onclick = () => {

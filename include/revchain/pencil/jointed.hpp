@@ -21,45 +21,34 @@ struct JointFactors {
     F stiffness{}, spin{}, damping{}, mass{};
 };
 
-/// Calls `take(pivot, yr, spring, m)` for each element m, lowest first, and returns nothing else.
-/// `yr` couples the offset of its upper pin to its own rotation, `spring` is the dynamic stiffness
-/// of its joint. The last element's is to the ground. `number(x, error)` makes an F of a number.
-template <class F, Real S, class Number, class Take>
-void eliminate(const SignedPencil<S>& pencil, const JointFactors<F>& x, const Number& number,
-               const Take& take) {
-    F yy = number(S(Narrow<S>(0)), 0), yr = yy, rr = yy;  // the form of everything below
+/// Calls `take(pivot, yr, spring, m)` for each element m, lowest first. `yr` couples the offset of
+/// its upper pin to its own rotation, `spring` is the dynamic stiffness of its joint. F has the
+/// field operations and a constructor from S.
+template <class F, Real S, class Take>
+void eliminate(const SignedPencil<S>& pencil, const JointFactors<F>& x, const Take& take) {
+    const S zero(Narrow<S>(0));
+    const F none(zero);
+    F yy = none, yr = none, rr = none;  // the form of everything below
     const std::size_t count = pencil.elements.size();
-    constexpr auto rounding = 4 * operation_error<S>();
-    const auto exact = [&](const S& y) { return number(y, 0); };
-    const auto near = [&](const S& y) {  // a number with a rounding
-        using std::abs;
-        return number(y, rounding * static_cast<Narrow<S>>(abs(y)));
-    };
     for (std::size_t m = 0; m < count; ++m) {
         const SignedElement<S>& e = pencil.elements[m];
         const Joint<S>& joint = pencil.joints[m];
-        const F stiffness = x.stiffness * number(e.stiffness, e.error.stiffness);
-        if (joint.lever == S(Narrow<S>(0))) {  // a support: its pin has no rotation
-            take(yy + stiffness + x.damping * near(joint.damping) +
-                     x.mass * number(e.lower, e.error.lower),
-                 yr, F(exact(S(Narrow<S>(0)))), m);
+        const F own = x.stiffness * F(e.stiffness) + x.spin * F(e.spin) + x.mass * F(e.lower);
+        if (joint.lever == zero) {  // a support: its pin has no rotation
+            take(F(yy + own + x.damping * F(joint.damping)), yr, none, m);
             return;
         }
-        const F lever = exact(joint.lever), lower = number(e.lower, e.error.lower),
-                cross = number(e.cross, e.error.cross), upper = number(e.upper, e.error.upper);
-        const F own = stiffness + x.spin * number(e.spin, e.error.spin) + x.mass * lower;
-        const F far = lever * yy + yr;
+        const F lever(joint.lever), far = lever * yy + yr;
         rr = rr + lever * (yr + far + lever * own);
-        yr = far + x.mass * lever * (lower + cross);
-        yy = yy + x.mass * ((lower + cross) + (cross + upper));
-        const F spring = x.stiffness * near(joint.stiffness) + x.damping * near(joint.damping);
+        yr = far + x.mass * lever * F(e.lower + e.cross);
+        yy = yy + x.mass * F((e.lower + e.cross) + (e.cross + e.upper));
+        const F spring = x.stiffness * F(joint.stiffness) + x.damping * F(joint.damping);
         const F pivot = rr + spring;
         take(pivot, yr, spring, m);
         if (m + 1 == count) return;
         const F share = yr / pivot;
         yy = yy - yr * share;
-        const bool hangs_from_link = pencil.joints[m + 1].lever != S(Narrow<S>(0));
-        const F none = exact(S(Narrow<S>(0)));
+        const bool hangs_from_link = pencil.joints[m + 1].lever != zero;
         yr = hangs_from_link ? F(spring * share) : none;
         rr = hangs_from_link ? F(spring * (rr / pivot)) : none;
     }
@@ -194,8 +183,7 @@ CertifiedCount certified_count(const SignedPencil<S>& pencil, const JointFactors
 template <Real T>
 Index jointed_count(const SignedPencil<T>& pencil, const T& x) {
     Index negative = 0;
-    const auto number = [](const T& y, const auto&) { return y; };
-    eliminate<T>(pencil, steady_factors<T>(pencil, x), number,
+    eliminate<T>(pencil, steady_factors<T>(pencil, x),
                  [&](const T& pivot, const auto&, const auto&, std::size_t) {
                      negative += pivot < T(0) ? 1 : 0;
                  });
@@ -208,23 +196,20 @@ class JointSolver {
    public:
     template <Real S>
     JointSolver(const SignedPencil<S>& pencil, const JointFactors<F>& x) {
-        const auto number = [](const S& y, const auto&) { return F(y); };
-        eliminate<F>(pencil, x, number,
-                     [&](const F& pivot, const F& yr, const F& spring, std::size_t m) {
-                         steps_.push_back({pivot, yr, spring, F(pencil.joints[m].lever)});
-                     });
+        eliminate<F>(pencil, x, [&](const F& pivot, const F& yr, const F& spring, std::size_t m) {
+            steps_.push_back({pivot, yr, spring, F(pencil.joints[m].lever)});
+        });
         yields_ = pencil.joints.back().lever == S(Narrow<S>(0));
     }
     std::size_t size() const { return steps_.size(); }
-    /// Returns whether the last unknown is the offset of the support.
-    bool yields() const { return yields_; }
     F& pivot(std::size_t m) { return steps_[m].pivot; }
 
     /// Replaces loads (torques on rotations; last the force on a support) by rotations, and by the
-    /// offset of a support that yields. `end` is the offset of the uppermost pin if it is given.
-    void solve(std::vector<F>& load, const F& end) const {
+    /// offset of a support that yields.
+    void solve(std::vector<F>& load) const {
         const std::size_t links = steps_.size() - (yields_ ? 1 : 0);
-        F at_pin = end - end;  // the load that is carried to the pin above
+        const F none = load[0] - load[0];
+        F at_pin = none;  // the load that is carried to the pin above
         for (std::size_t m = 0; m < links; ++m) {
             const Step& step = steps_[m];
             load[m] = load[m] + step.lever * at_pin;
@@ -232,7 +217,7 @@ class JointSolver {
             at_pin = at_pin - step.yr * share;
             if (m + 1 < links) load[m + 1] = load[m + 1] + step.spring * share;
         }
-        F y = end;
+        F y = none;
         if (yields_) y = load[links] = (load[links] + at_pin) / steps_[links].pivot;
         for (std::size_t m = links; m-- > 0;) {
             const Step& step = steps_[m];
@@ -242,15 +227,6 @@ class JointSolver {
             y = y + step.lever * load[m];
         }
     }
-    /// Returns the offsets of all pins, lowest first, from rotations and the end's offset.
-    std::vector<F> offsets(const std::vector<F>& rotation, const F& end) const {
-        const std::size_t links = steps_.size() - (yields_ ? 1 : 0);
-        std::vector<F> offset(steps_.size() + 1, end - end);
-        F y = yields_ ? rotation[links] : end;
-        offset[links] = y;
-        for (std::size_t m = links; m-- > 0;) y = y + steps_[m].lever * rotation[m], offset[m] = y;
-        return offset;
-    }
 
    private:
     struct Step {
@@ -259,6 +235,20 @@ class JointSolver {
     std::vector<Step> steps_;
     bool yields_ = false;
 };
+
+/// Returns the offsets of all pins, lowest first, of rotations q, last the offset of a support that
+/// yields. `number` makes an F of a lever.
+template <class F, Real S, class Number>
+std::vector<F> offsets(const SignedPencil<S>& pencil, const std::vector<F>& q,
+                       const Number& number) {
+    const bool yields = pencil.joints.back().lever == S(Narrow<S>(0));
+    const std::size_t links = q.size() - (yields ? 1 : 0);
+    std::vector<F> offset(q.size() + 1, q[0] - q[0]);
+    if (yields) offset[links] = q[links];
+    for (std::size_t m = links; m-- > 0;)
+        offset[m] = offset[m + 1] + number(pencil.joints[m].lever) * q[m];
+    return offset;
+}
 
 /// Returns Q q for rotations q, last the offset of a support that yields: torques, and the force on
 /// the support. F has the field operations and a constructor from S. With `Sizes` all numbers and
@@ -272,11 +262,9 @@ std::vector<F> applied(const SignedPencil<S>& pencil, const JointFactors<F>& x,
     const std::size_t count = pencil.elements.size();
     const bool yields = pencil.joints.back().lever == zero;
     const F none = q[0] - q[0];
-    std::vector<F> offset(count + 1, none), row(count, none);
     const std::size_t links = count - (yields ? 1 : 0);
-    if (yields) offset[links] = q[links];
-    for (std::size_t m = links; m-- > 0;)
-        offset[m] = offset[m + 1] + number(pencil.joints[m].lever) * q[m];
+    const std::vector<F> offset = offsets(pencil, q, number);
+    std::vector<F> row(count, none);
     F force = none, spring_below = none;
     for (std::size_t m = 0; m < count; ++m) {
         const SignedElement<S>& e = pencil.elements[m];
@@ -327,8 +315,8 @@ std::vector<S> jointed_vector(const SignedPencil<S>& pencil, const S& x) {
     for (int round = 0; round < 3; ++round) {
         std::vector<S> load =
             applied(pencil, JointFactors<S>{none, none, none, S(M(1))}, rotations(pencil, offset));
-        solver.solve(load, none);
-        offset = solver.offsets(load, none);
+        solver.solve(load);
+        offset = offsets(pencil, load, [](const S& lever) { return lever; });
         S largest = none;
         for (const S& y : offset)
             if (abs(y) > abs(largest)) largest = y;

@@ -25,7 +25,7 @@ struct DampedSystem {
         : rig(rig_pencil(of, gravity, {}, true)),
           momentum(of.has_momentum()),
           rests(of.support().is_free() && of.support().damping.high > 0),
-          drifts(of.support().is_free() && !rests) {}
+          drifts(pencil::keeps_momentum(rig.pencil)) {}
 
     const pencil::DampedPencil& pencil() const { return rig.pencil; }
     Index exponents() const { return 2 * (rig.pencil.size() - (drifts ? 1 : 0)); }
@@ -129,15 +129,9 @@ std::vector<double> damped_radii(const DampedSystem& of,
 REVCHAIN_LAZY
 std::vector<pencil::Complex> damped_shape(const DampedSystem& of, const pencil::DampedRoot& root) {
     using pencil::Complex;
-    const auto& joints = of.pencil().joints;
-    std::vector<Complex> offset(joints.size() + 1, 0.0);
-    const bool yields = joints.back().lever == Wide<double>(0.0);
-    const std::size_t links = joints.size() - (yields ? 1 : 0);
-    if (yields) offset[links] = static_cast<Complex>(root.q[links]);
-    for (std::size_t m = links; m-- > 0;)
-        offset[m] =
-            offset[m + 1] + static_cast<double>(joints[m].lever) * static_cast<Complex>(root.q[m]);
-    offset.resize(links + 1);
+    const std::vector<Complex> q = pencil::in_double(root.q);
+    std::vector<Complex> offset = pencil::offsets(
+        of.pencil(), q, [](const Wide<double>& lever) { return static_cast<double>(lever); });
     offset.insert(offset.begin(), static_cast<std::size_t>(of.rig.idle), offset.front());
     Complex largest = offset[0];
     for (const Complex& y : offset)
@@ -177,7 +171,7 @@ DampedModes damped_modes(const Rig& rig, const DampedModesOptions& options) {
     }
     DampedModes result;
     result.first = options.first, result.has_momentum = system.momentum;
-    result.rigid = rig.support().is_free() ? 1 : 0;
+    result.rigid = system.rig.rigid;
     result.complete = all_within(0.4);
     if (!result.complete) result.status = Status::tolerance_not_met;
     result.available = static_cast<Index>(roots.size());

@@ -139,7 +139,7 @@ def mechanism(function: str, given: Any, gravity: float | None) -> tuple[Mechani
     if rig._floats:
         instead = "give the rig without displaced"
         raise ValueError(f"{function}: a fluid has no counterpart in the engine; {instead}, got {rig!r}")
-    if rig.is_damped or rig.pins is not None:
+    if rig._has_pins:
         raise ValueError(f"{function}: springs and dashpots at pins are not written yet; leave them out, got {rig!r}")
     made, momentum, axial = _bodies(function, rig, gravity)
     if shapes is None:

@@ -178,7 +178,7 @@ class _Model:
     def _rates(self, there: Speeds) -> Any:
         """Derivatives of the speeds by the data of a chain or a rig; None if there are none."""
         if there.modes.system._kind == "rig":
-            if there.modes.system.is_damped or there.modes.system.pins is not None:
+            if there.modes.system._has_pins:
                 return None
             return rig_derivatives(there.modes.system, there.speed, there.modes.shape[there.rows], self.gravity)
         if self.system._kind != "chain":

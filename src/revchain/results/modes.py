@@ -704,8 +704,7 @@ def _others(modes: Modes) -> OtherModes:
 
 
 def _refuse_pins(modes: Modes, name: str) -> None:
-    rig = modes.system
-    if rig._kind == "rig" and (rig.is_damped or rig.pins is not None):
+    if modes.system._kind == "rig" and modes.system._has_pins:
         raise UnavailableError(
             f"revchain.Modes.{name}: cannot be found for a rig with springs or dashpots; call revchain.modes with another datum"
         )

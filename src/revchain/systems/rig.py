@@ -560,6 +560,11 @@ class Rig(System):
         """Whether the support or a pin has a dashpot: motions then decay."""
         return self.support.damping > 0 or (self.pins is not None and "damping" in self.pins._given)
 
+    @property
+    def _has_pins(self) -> bool:
+        """Whether a pin has a spring, or the support or a pin a dashpot."""
+        return self.pins is not None or self.is_damped
+
     _kind = "rig"
     _fixes_gravity = "a rig"
 

@@ -53,14 +53,14 @@ VectorProducts vector_products(const DampedPencil& pencil, const std::vector<Dam
     for (Index j = 0; j < m; ++j) {
         const DampedRoot& root = roots[static_cast<std::size_t>(j)];
         std::vector<Z> q;
-        std::vector<Complex> rough;
-        for (const ComplexWord& each : root.q) q.push_back(made(each)), rough.emplace_back(each);
+        for (const ComplexWord& each : root.q) q.push_back(made(each));
         damped.push_back(applied(pencil, {none, none - i, one, none}, q));
         moved.push_back(applied(pencil, {none, none, none, one}, q));
         x.push_back(std::move(q));
         size[j] = norm(x.back()), of_damped[j] = norm(damped.back());
         of_moved[j] = norm(moved.back());
-        applied_error[j] = rounding * sizes_norm(pencil, {0, 1, 1, 2 * size_of(root.s)}, rough);
+        applied_error[j] =
+            rounding * sizes_norm(pencil, {0, 1, 1, 2 * size_of(root.s)}, in_double(root.q));
     }
     VectorProducts result{Matrix<double>(m, m), Matrix<double>(m, m)};
     const auto s = [&](Index k) { return made(roots[static_cast<std::size_t>(k)].s); };
@@ -116,8 +116,7 @@ std::vector<double> disc_radii(const DampedPencil& pencil, const std::vector<Dam
     Vector<double> off_error(m);
     for (Index j = 0; j < m; ++j) {
         const DampedRoot& root = roots[static_cast<std::size_t>(j)];
-        std::vector<Complex> rough;
-        for (const ComplexWord& each : root.q) rough.emplace_back(each);
+        const std::vector<Complex> rough = in_double(root.q);
         for (Index k = 0; k < n; ++k)
             X(k, j) = rough[static_cast<std::size_t>(k)],
                  off(k, j) = root.off[static_cast<std::size_t>(k)];

@@ -48,6 +48,14 @@ struct DampedRoot {
     bool real = false;
 };
 
+/// Returns numbers of two words, rounded.
+REVCHAIN_LAZY
+std::vector<Complex> in_double(const std::vector<ComplexWord>& words) {
+    std::vector<Complex> rounded;
+    for (const ComplexWord& each : words) rounded.emplace_back(each);
+    return rounded;
+}
+
 /// A double that can be made of a double word, as `applied` needs.
 struct Number {
     double value = 0;
@@ -165,10 +173,11 @@ template <class F>
 void set_trolley(const DampedPencil& pencil, std::vector<F>& q) {
     if (!keeps_momentum(pencil)) return;
     const F none(Wide<double>(0.0)), one(Wide<double>(1.0));
+    Wide<double> whole(0.0);
+    for (const auto& e : pencil.elements) whole = whole + e.weight;
+    q.back() = none;
     const JointFactors<F> mass{none, none, none, one};
-    std::vector<F> unit(q.size(), none);
-    unit.back() = one, q.back() = none;
-    q.back() = none - applied(pencil, mass, q).back() / applied(pencil, mass, unit).back();
+    q.back() = none - applied(pencil, mass, q).back() / F(whole);
 }
 
 /// Sets the exponent from the vector by the symmetric Rayleigh quotient, q^T Q(s) q = 0, in two
@@ -191,9 +200,7 @@ void set_exponent(const DampedPencil& pencil, DampedRoot& root) {
         const ComplexWord scale(std::sqrt(static_cast<Complex>(form)));
         for (ComplexWord& each : root.q) each = each / scale;
     }
-    root.off.clear();
-    for (const ComplexWord& each : applied(pencil, damped_factors(root.s, unit), root.q))
-        root.off.emplace_back(each);
+    root.off = in_double(applied(pencil, damped_factors(root.s, unit), root.q));
     if (keeps_momentum(pencil)) root.off.back() = 0.0;  // but for the rounding of the offset
 }
 
@@ -201,7 +208,7 @@ void set_exponent(const DampedPencil& pencil, DampedRoot& root) {
 REVCHAIN_LAZY
 DampedRoot refined(const DampedPencil& pencil, const Complex& start) {
     const auto n = static_cast<std::size_t>(pencil.size());
-    const Rough i(0, 1), none(0, 0);
+    const Rough i(0, 1);
     Rough s = start;
     std::vector<Rough> q(n), load(n);
     for (std::size_t m = 0; m < n; ++m) load[m] = Complex(1.0 / double(1 + (m * 7) % 11) - 0.3);
@@ -210,7 +217,7 @@ DampedRoot refined(const DampedPencil& pencil, const Complex& start) {
         for (std::size_t m = 0; m < n; ++m)
             if (!(std::abs(solver.pivot(m)) > 1e-290)) solver.pivot(m) = Complex(1e-290);
         q = load;
-        solver.solve(q, none);
+        solver.solve(q);
         double largest = 0;
         for (const Rough& each : q) largest = std::max(largest, std::abs(each));
         if (!std::isfinite(largest) || largest == 0) break;
@@ -238,7 +245,7 @@ void sharpen(const DampedPencil& pencil, DampedRoot& root) {
     const JointSolver<ComplexWord> solver(pencil, damped_factors(root.s, unit));
     for (int round = 0; round < 2; ++round) {
         if (round > 0) q = applied(pencil, damped_factors(root.s, unit, true), q);
-        solver.solve(q, ComplexWord());
+        solver.solve(q);
         double largest = 0;
         for (const ComplexWord& each : q) largest = std::max(largest, size_of(each));
         if (!std::isfinite(largest) || largest == 0) return;
@@ -279,8 +286,7 @@ Complex further_exponent(const DampedPencil& pencil, const std::vector<Complex>&
     const Rough i(0, 1), one(1, 0), none(0, 0);
     for (int step = 0; step < 200; ++step) {
         Complex rate = -static_cast<double>(zeros) / s;
-        const auto number = [](const Wide<double>& y, const auto&) { return Dual(y); };
-        eliminate<Dual>(pencil, damped_factors(Dual(s, one), Dual(i, none)), number,
+        eliminate<Dual>(pencil, damped_factors(Dual(s, one), Dual(i, none)),
                         [&](const Dual& pivot, const Dual&, const Dual&, std::size_t) {
                             rate += pivot.slope / pivot.value;
                         });
