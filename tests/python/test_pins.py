@@ -105,13 +105,13 @@ def test_dashpots_at_wheels_keep_the_senses_apart():
 
 @pytest.mark.parametrize("links", [10, 40])
 def test_a_hanging_cable_with_bending_stiffness(links):
-    """Springs EI/a at the pins: far below the stiffness of the weight nothing changes, far above a clamped rod whirls."""
+    """Springs EI/a at the pins, far stiffer than the weight: the error against a clamped beam falls as 1/N^2."""
     a, EI = 1.0 / links, 1e4
     spring = np.full(links, EI / a)
     spring[-1] *= 2
     m = rc.modes(rc.Rig(rc.Chain.uniform_rods(links, length=1.0, mass=1.0), pins=rc.Pin(stiffness=spring)), 2)
     beam = np.array([1.8751040687, 4.6940911330]) ** 2 * math.sqrt(EI)  # Euler and Bernoulli: a cantilever
-    assert m.angular_speed == near(beam, rel=1.2 / links)
+    assert m.angular_speed == near(beam, rel=1.7 / links**2)
     assert m.complete and m.method == "counts"
 
 
@@ -129,7 +129,8 @@ def test_files_words_and_equality(tmp_path):
         m.save(tmp_path / name)
         assert rc.load(tmp_path / name) == m
     table = m.to_dataframe()
-    assert {"exponent", "damping_ratio", "decay_time"} <= {name.split("[")[0] for name in table.columns} | {"exponent"}
+    assert {"damping_ratio", "decay_time", "error_estimate"} <= set(table.columns)
+    assert m.to_dict()["modes"][0]["exponent"] == [m.exponent[0].real, m.exponent[0].imag]
     assert "damping ratio" in str(m) and "decay time (s)" in str(m)
     assert m[0].decay_time == m.decay_time[0]
     plain = rc.modes(rig.chain)
@@ -190,7 +191,8 @@ def test_what_cannot_be_found_yet_is_refused_and_not_wrong(rig):
             rc.branches(rig, max_angular_speed=8.0)
     else:
         shapes = rc.steady_shapes(rig, angular_speed=5.0)
-        assert shapes[0] == rc.steady_shapes(rc.Rig(rig.chain), angular_speed=5.0)[0] or len(shapes)
+        without = rc.steady_shapes(rc.Rig(rig.chain), angular_speed=5.0)
+        assert [shape.offset.tolist() for shape in shapes] == [shape.offset.tolist() for shape in without] and len(shapes) == 1
         with pytest.raises(ValueError, match="cannot be found for a rig with dashpots"):
             shapes[0].stability()
     if rig is not TROLLEY:
