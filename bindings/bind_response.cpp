@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "revchain/forced_motion.hpp"
 #include "revchain/response.hpp"
 #include "revchain/swing.hpp"
+#include "revchain/transient.hpp"
 
 namespace {
 
@@ -81,6 +83,45 @@ py::tuple whirl_swing(const Rig& rig, const ComplexArray& offsets, const Complex
                           to_numpy(found.truncation_error), to_numpy(found.error_bound));
 }
 
+py::tuple forced_motion(const Rig& rig, const Array& speeds, double radius, double acceleration, double force,
+                        double gravity, Index threads) {
+    const revchain::ForcedMotionOptions options{.angular_speed = as_vector(speeds),
+                                                .radius = radius,
+                                                .acceleration = acceleration,
+                                                .force = force,
+                                                .gravity = gravity,
+                                                .threads = threads};
+    const auto found = without_lock([&] { return revchain::forced_motion(rig, options); });
+    return py::make_tuple(complex_numbers(found.offset, {found.offset.rows(), found.offset.cols()}),
+                          to_numpy(found.error_estimate), whole(found.modes_below), flags(found.resonant),
+                          complex_numbers(found.support_force, {found.support_force.size()}));
+}
+
+py::tuple transient(const Rig& rig, const std::optional<ComplexArray>& offsets,
+                    const std::optional<ComplexArray>& velocities, const Array& time, const std::string& given,
+                    const Array& motion_time, const Array& motion, double gravity) {
+    using Given = revchain::SupportMotion::Given;
+    const std::pair<const char*, Given> kinds[] = {{"acceleration", Given::acceleration},
+                                                   {"velocity", Given::velocity},
+                                                   {"offset", Given::offset},
+                                                   {"force", Given::force}};
+    revchain::TransientOptions options{.time = as_vector(time),
+                                       .motion = {.time = as_vector(motion_time), .value = as_vector(motion)},
+                                       .gravity = gravity};
+    for (const auto& [name, kind] : kinds)
+        if (given == name) options.motion.given = kind;
+    if (offsets) options.offset = column(*offsets);
+    if (velocities) options.velocity = column(*velocities);
+    const auto found = without_lock([&] { return revchain::transient(rig, options); });
+    const std::vector<py::ssize_t> shape{found.offset.rows(), found.offset.cols()};
+    return py::make_tuple(complex_numbers(found.offset, shape), complex_numbers(found.velocity, shape),
+                          to_numpy(found.error_estimate), found.end, to_numpy(found.sway),
+                          complex_numbers(found.exponent, {found.exponent.size()}),
+                          complex_numbers(found.shape, {found.shape.rows(), found.shape.cols()}),
+                          complex_numbers(found.amplitude, {found.amplitude.size()}),
+                          complex_numbers(found.start, {found.start.size()}), found.projected);
+}
+
 }  // namespace
 
 void bind_response(py::module_& module) {
@@ -92,4 +133,8 @@ void bind_response(py::module_& module) {
                "gravity"_a);
     module.def("rig_swing", &swing<Rig>, "rig"_a, "offsets"_a, "velocities"_a, "time"_a, "modes"_a, "gravity"_a);
     module.def("whirl_swing", &whirl_swing, "rig"_a, "offsets"_a, "velocities"_a, "time"_a, "whirls"_a, "gravity"_a);
+    module.def("forced_motion", &forced_motion, "rig"_a, "speeds"_a, "radius"_a, "acceleration"_a, "force"_a,
+               "gravity"_a, "threads"_a = 1);
+    module.def("transient", &transient, "rig"_a, "offsets"_a, "velocities"_a, "time"_a, "given"_a, "motion_time"_a,
+               "motion"_a, "gravity"_a);
 }

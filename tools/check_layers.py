@@ -30,7 +30,7 @@ ALLOWED = {
     "pencil/complex": {"numeric", "simd", "pencil"},
     "pencil/damped": {"numeric", "pencil", "pencil/complex"},
     "linear": {"numeric", "simd", "system", "pencil", "pencil/batch", "pencil/condensed", "pencil/spectrum"}
-    | {"pencil/forced", "pencil/complex"},
+    | {"pencil/forced", "pencil/complex", "pencil/damped"},
     "finite/balance": {"numeric", "simd", "system", "linear"},
     "finite/shapes": {"numeric", "system", "linear", "finite/balance"},
     "finite/branch": {"numeric", "simd", "system", "linear", "finite/balance", "finite/shapes"},
@@ -58,6 +58,8 @@ PUBLIC = {
     "response.hpp": "questions",
     "swing.hpp": "questions",
     "damped_modes.hpp": "questions",
+    "forced_motion.hpp": "questions",
+    "transient.hpp": "questions",
     "sensitivity.hpp": "questions",
     "tune.hpp": "questions",
     "rig_modes.hpp": "questions",

@@ -12,7 +12,7 @@ const presets = JSON.parse(document.getElementById('presets').textContent);
 function presetState(name) {
     const preset = presets.find((each) => each.name === name);
     if (!preset) throw new Error(`The link names the example "${name}", which this page does not have. Choose one above.`);
-    const {title, says, tries, ...state} = structuredClone(preset);
+    const {title, group, says, tries, ...state} = structuredClone(preset);
     return {...state, speed: null, select: null, unit: 'rpm'};
 }
 

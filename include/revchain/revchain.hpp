@@ -3,9 +3,9 @@
 
 // Chains, rigs, closed forms and the functions used most; needs Eigen only. These headers are left
 // out, because together they would triple the time to compile: batch.hpp, branches.hpp,
-// damped_modes.hpp, explain.hpp, held.hpp, methods.hpp, rig_modes.hpp, stability.hpp,
-// stability_windows.hpp, swing.hpp and tune.hpp. Include the one that you need. Headers that need
-// GSL are in revchain/analytic.hpp.
+// damped_modes.hpp, explain.hpp, forced_motion.hpp, held.hpp, methods.hpp, rig_modes.hpp,
+// stability.hpp, stability_windows.hpp, swing.hpp, transient.hpp and tune.hpp. Include the one that
+// you need. Headers that need GSL are in revchain/analytic.hpp.
 
 #include "revchain/bell.hpp"                   // IWYU pragma: export
 #include "revchain/buffer.hpp"                 // IWYU pragma: export

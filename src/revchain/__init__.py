@@ -7,7 +7,7 @@ whirl speed of small amplitude is the natural angular frequency of its swing in 
 Revolving Chain" (1908).
 
 Systems
-    Chain, Rig (with Support, Pin, Flywheel, Displaced), Cord, Held
+    Chain, Rig (with Support, Pin, Flywheel, Displaced), Cord, Held; SupportMotion
 Questions
     modes, count_modes, steady_shapes, steady_shape, branches, branch, response, swing, tune, fit, explain;
     conical_heights for many chains at once
@@ -84,6 +84,7 @@ from .systems.rig import Flywheel as Flywheel
 from .systems.rig import Pin as Pin
 from .systems.rig import Rig as Rig
 from .systems.rig import Support as Support
+from .systems.support_motion import SupportMotion as SupportMotion
 
 if _TYPE_CHECKING:
     from .cli import cmake_prefix as cmake_prefix

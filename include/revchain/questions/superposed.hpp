@@ -11,6 +11,7 @@
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/double_double.hpp"
 #include "revchain/numeric/progress.hpp"
+#include "revchain/numeric/turned.hpp"
 #include "revchain/system/converted.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
@@ -118,15 +119,6 @@ class OscillatingChain : public PencilForms<pencil::ElementPencil<DoubleDouble>>
    private:
     ChainUnits units_;
 };
-
-/// Returns exp(i angle) of a large angle, reduced in double-double.
-REVCHAIN_LAZY
-std::complex<double> turned(const DoubleDouble& angle) {
-    const DoubleDouble turn(6.283185307179586, 2.4492935982947064e-16);
-    const DoubleDouble rest = angle - turn * DoubleDouble(std::nearbyint((angle / turn).high()));
-    const double c = std::cos(rest.high()), s = std::sin(rest.high());
-    return {c - s * rest.low(), s + c * rest.low()};
-}
 
 /// The modes of a start. Offsets are the sum of amplitude shape exp(i speed t), or its real part.
 struct Superposition {

@@ -261,7 +261,7 @@ _SUMMARIES = {
     "modes": "Find the whirl speeds (natural frequencies) and mode shapes.",
     "shapes": "Find every steady shape (relative equilibrium) at one speed, at any inclination.",
     "response": "Find the forced motion of each pin when the support moves in a small circle or to and fro.",
-    "swing": "Find the small oscillations in a plane after release.",
+    "swing": "Find the small oscillations in a plane after release, or while the support is moved.",
     "branches": "Find the bifurcation diagram: all branches of steady shapes up to a speed.",
 }
 for _question, _table in QUESTIONS.items():

@@ -137,7 +137,10 @@ def _pins(found: Response) -> Sheet:
     """The offset of each pin at one speed."""
     offset = np.atleast_1d(found.offset.reshape(-1))
     pins = Column("pin", np.atleast_1d(found.pins), "pin (0: free end)")
-    columns = [pins, Column("offset", offset, "from the axis (m)", 10)]
+    columns = [pins, Column("offset", np.abs(offset) if np.iscomplexobj(offset) else offset, "from the axis (m)", 10)]
+    if np.iscomplexobj(offset):
+        phase = np.angle(offset)
+        columns.append(Column("phase", phase, "ahead (°)", 4, shown=np.degrees(phase), unit="rad"))
     return Sheet("pin", "a resonance: it goes out without bound" if found.resonant else "", columns)
 
 

@@ -273,6 +273,8 @@ def _between(at: Floats, way: Floats, rows: Any) -> Any:
 @staged.register
 def _(found: Swing, choices: Choices) -> Film:
     def at(time: Floats) -> Complex:
+        if found.exponent is not None:
+            return _between_moments(found, time)
         whole = (np.exp(1j * np.outer(time, found.angular_frequency)) * found.amplitude) @ found.shape
         return np.asarray(whole if found.offset.dtype.kind == "c" else whole.real, np.complex128)
 
@@ -295,6 +297,19 @@ def _(found: Swing, choices: Choices) -> Film:
     still = np.zeros(frames)
     figure = Figure("swing", scale * offset, height[None], np.full(frames, scale), still, np.zeros(1), captions)
     return _film(found, [figure], choices, time_scale, progress=[f"Time: {now:.3f} s" for now in time.tolist()])
+
+
+def _between_moments(found: Swing, time: Floats) -> Complex:
+    """Offsets between the times of a swing: cubics with its offsets and velocities at both ends (Hermite)."""
+    when, first = np.unique(found.time, return_index=True)
+    offset, velocity = found.offset[first], found.velocity[first]
+    after = np.clip(np.searchsorted(when, time, side="right"), 1, when.size - 1)
+    gap = (when[after] - when[after - 1])[:, None]
+    u = (time - when[after - 1])[:, None] / gap
+    start, end = offset[after - 1], offset[after]
+    rise, slope = end - start, velocity[after - 1] * gap
+    bend = velocity[after] * gap + slope - 2 * rise
+    return np.asarray(start + u * (slope + u * (rise - slope - (1 - u) * bend)), np.complex128)
 
 
 # ---- what all films have

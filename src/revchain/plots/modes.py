@@ -404,19 +404,22 @@ def _draw_mode(ax: Axes, modes: Modes, straight: Straight, row: int, shape: Floa
 
 
 def plot_carried(found: Response, ax: Axes | None, pins: list[int], unit: SpeedUnit) -> Axes:
-    """Draw the response at one speed as a shape, with the support on its circle."""
+    """Draw the response at one speed as a shape, with the support on its circle; with dashpots when its lowest pin is farthest."""
     straight = Straight(found.system)
     across = np.full(straight.level.size, np.nan)
     available = np.atleast_1d(found.pins)
     drawn = np.isin(available, pins)
-    across[available[drawn]] = found.offset.reshape(-1)[drawn]
+    offset = found.offset.reshape(-1)
+    when = np.exp(-1j * np.angle(offset[0])) if np.iscomplexobj(offset) else 1.0
+    across[available[drawn]] = (offset * when).real[drawn]
     ax = beside_at_rest(found.system, ax, 5.0, 6.0, across=0.0)
     straight.axis(ax, 0.0)
     if len(pins) == across.size:
         straight.links(ax, across, CARRIED)
     else:
         ax.plot(across, straight.level, "o", color=CARRIED)
-    ax.plot([0.0, found.support_radius], [0.0, 0.0], **ARM)
+    if found.support_radius is not None:
+        ax.plot([0.0, found.support_radius * np.real(when)], [0.0, 0.0], **ARM)
     straight.finish(ax)
     ax.set_xlabel(f"offset from the axis (m) at {unit.text(found.angular_speed.item())}")
     return ax

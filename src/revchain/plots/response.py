@@ -30,7 +30,8 @@ def plot_response(
 ) -> Axes:
     """Draw the distances of pins from the axis against the speed, on a logarithmic scale.
 
-    A line is dashed if the pin is on the side opposite to the support; vertical lines mark the resonances.
+    A line is dashed if the pin is on the side opposite to the support (with dashpots: behind by more than a quarter of a turn);
+    vertical lines mark the resonances.
     A response at one speed is drawn as a shape: the offsets of the pins against their depths.
 
     pins: Numbers of the pins to draw. If left out: the lowest and up to three others, evenly spaced; all at a
@@ -54,26 +55,32 @@ def plot_response(
     chosen = _spread(available, found.system.size) if pins is None else pins_among(caller, pins, available)
     order = np.argsort(rate)
     rate, offset = rate[order], found.offset.reshape(rate.size, -1)[order]
+    drive = -1 if found.acceleration is not None else 1  # which side the support is on
+    support = np.full(rate.size, np.nan)  # of a force
+    if found.force is None:
+        support = np.broadcast_to(found._support_amplitude, found.angular_speed.shape).reshape(-1)[order]
     if unit.unit == "s" and rate[0] < 0 < rate[-1]:  # the curves break at rest, the period of which is infinite
         rest = np.searchsorted(rate, 0.0)
         rate, offset = np.insert(rate, rest, 0.0), np.insert(offset, rest, np.nan, axis=0)
+        support = np.insert(support, rest, np.nan)
     ax = beside_at_rest(found.system, ax, 7.0, 4.5)
     for number, pin in enumerate(chosen):
         y = offset[:, available.index(pin)]
         for side, style in ((1, "-"), (-1, "--")):
-            size = np.where(_with_neighbours(np.sign(y) == side), np.abs(y), np.nan)
+            size = np.where(_with_neighbours(np.sign(drive * y.real) == side), np.abs(y), np.nan)
             label = pin_name(pin) if side == 1 else None
             ax.plot(unit.of(rate), size, style, color=house(number), linewidth=1.4, label=label)
-    ax.axhline(found.support_radius, color="0.6", linewidth=0.8, zorder=0)
+    ax.plot(unit.of(rate), support, color="0.6", linewidth=0.8, zorder=0)
     for at in found.whirl_speeds if boolean(caller, "resonances", resonances) else ():
         ax.axvline(unit.of(at), **{**AXIS, "zorder": 0})
     ax.set_yscale("log")
     finite = np.abs(offset[np.isfinite(offset) & (offset != 0)])
     if finite.size:
         top = finite.max()
-        ax.set_ylim(max(finite.min(), 1e-6 * min(top, found.support_radius)) / 2, 2 * top)
-    ax.set(xlabel=unit.label, ylabel="distance from axis (m); grey: support")
-    ax.plot([], [], "--", color="0.3", linewidth=1.4, label="opposite to\nthe support")
+        ax.set_ylim(max(finite.min(), 1e-6 * np.nanmin([top, *support])) / 2, 2 * top)
+    ax.set(xlabel=unit.label, ylabel="distance from axis (m)" + ("; grey: support" if found.force is None else ""))
+    opposite = "support" if found.force is None else "force"
+    ax.plot([], [], "--", color="0.3", linewidth=1.4, label=f"opposite to\nthe {opposite}")
     legend_outside(ax)
     return ax
 

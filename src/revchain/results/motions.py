@@ -23,10 +23,12 @@ MOST_RESONANCES = 60  # largest number that a plot marks; more would blacken it
 
 
 class Response(Result, Moving):
-    """Forced motion of a chain or rig whose support moves in a circle, at one or more speeds; returned by `response`.
+    """Forced motion of a chain or rig whose support is moved or pushed, at one or more speeds; returned by `response`.
 
     Arrays have the shape of the given speeds, ``(...)``; those of pins have one more axis. If the support moves to and fro
-    along a line (base excitation), the numbers are amplitudes; all pins move in phase or in antiphase.
+    along a line (base excitation), the numbers are amplitudes. Without dashpots all pins move in phase or in antiphase.
+    With dashpots offsets and forces are complex: the real part of ``offset * exp(1j * angular_speed * time)`` is where a pin
+    is while the drive goes as the cosine.
 
     Examples
     --------
@@ -48,36 +50,71 @@ class Response(Result, Moving):
     rpm: Field[Floats] = Field("Revolutions per minute, shape (...).", lambda r: r.angular_speed * (60 / TURN))
     period: Field[Floats] = Field("Time of one revolution, s, shape (...).", lambda r: TURN / np.abs(r.angular_speed))
     conical_height: Field[Floats] = Field("Conical heights ``gravity / angular_speed**2``, m, shape (...).")
-    support_radius: Field[float] = Field("Radius of the circle, m.")
+    support_radius: Field[float | None] = Field("Radius of the circle, m; None if an acceleration or a force is given.")
+    acceleration: Field[float | None] = Field(
+        "Amplitude of the acceleration of the support, m/s^2, if given. Its offset is opposite.", lambda r: None, part=True
+    )
+    force: Field[float | None] = Field("Amplitude of the force on the support, if given.", lambda r: None, part=True)
     pins: Field[Whole] = Field(
         "Numbers of the pins, from 0 for the free end, shape (P,). If a single number was given, the shape is (), and "
         "`offset` has no dimension for pins.",
     )
-    offset: Field[Floats] = Field(
-        "Offsets of the pins from the axis, m, shape (..., P), positive on the side of the support. NaN at a resonance.",
+    offset: Field[Numbers] = Field(
+        "Offsets of the pins from the axis, m, shape (..., P), positive on the side of the support (of the acceleration, of the "
+        "force); complex with dashpots. NaN at a resonance.",
     )
-    amplification: Field[Floats] = Field(
-        "Offsets divided by the radius of the circle, shape (..., P).", lambda r: np.asarray(r.offset / r.support_radius)
+    amplitude: Field[Floats] = Field("Sizes of the offsets, m, shape (..., P).", lambda r: np.abs(r.offset))
+    phase: Field[Floats] = Field(
+        "Angles by which the pins are ahead of the drive, rad, shape (..., P), from -pi to pi; negative: they lag.",
+        lambda r: np.angle(r.offset),
     )
-    error_bound: Field[Floats] = Field(
+    amplification: Field[Numbers | None] = Field(
+        "Offsets divided by the amplitude of the support, shape (..., P); None for a force.", lambda r: r._amplification()
+    )
+    error_bound: Field[Floats | None] = Field(
         "Proved bound of the error of each offset of the chain, divided by the largest offset, shape (...): half an ulp, more "
-        "close to a resonance, infinite at a resonance.",
+        "close to a resonance, infinite at a resonance. None if there is an estimate.",
+    )
+    error_estimate: Field[Floats | None] = Field(
+        "With springs or dashpots at pins, a trolley, an acceleration or a force: estimate of that error, shape (...). Else "
+        "None.",
+        lambda r: None,
+        part=True,
     )
     modes_below: Field[Whole] = Field(
-        "Number of whirl speeds of the chain with a fixed support that are below the speed, shape (...). A resonance "
-        "that cannot be separated from the speed is not counted.",
+        "Number of whirl speeds of the system, without dashpots and with a fixed support (with a force: one that yields), "
+        "that are below the speed, shape (...). A resonance that cannot be separated from the speed is not counted.",
     )
-    reversed: Field[Flags] = Field("Whether the free end is on the side opposite to the support, shape (...).")
+    reversed: Field[Flags] = Field(
+        "Whether the free end is on the side opposite to the support (to the force), shape (...); with dashpots, whether it is "
+        "behind or ahead by more than a quarter of a turn."
+    )
     resonant: Field[Flags] = Field("Whether the speed cannot be separated from a resonance, shape (...).")
-    support_force: Field[Floats] = Field(
-        "Horizontal outward pull of the chain on the moving support, N or in the unit of the weights, shape (...).",
+    support_force: Field[Numbers] = Field(
+        "Horizontal outward pull of the chain on the moving support, N or in the unit of the weights, shape (...); complex with "
+        "dashpots.",
     )
-    support_force_error: Field[Floats] = Field("Proved bound of the error of `support_force`, in its unit.")
+    support_force_error: Field[Floats | None] = Field(
+        "Proved bound of the error of `support_force`, in its unit; None if there is an estimate of offsets only."
+    )
     whirl_speeds: Field[Floats] = Field(
         "The whirl speeds of the chain with a fixed support between the smallest and the largest speed, rad/s: the resonances. "
         "Empty for a rig, and if there are more than 60.",
         lambda r: r._resonances(),
     )
+
+    @property
+    def _support_amplitude(self) -> Any:
+        """Amplitude of the support, m, a number or with the shape of the speeds; None for a force."""
+        if self.acceleration is not None:
+            return self.acceleration / self.angular_speed**2
+        return self.support_radius
+
+    def _amplification(self) -> Numbers | None:
+        if self.force is not None:
+            return None
+        size = self._support_amplitude
+        return np.asarray(self.offset / (size if np.ndim(size) == 0 or self.pins.ndim == 0 else size[..., None]))
 
     def _resonances(self) -> Floats:
         """Whirl speeds between the smallest and the largest speed."""
@@ -97,38 +134,77 @@ class Response(Result, Moving):
         speed = self.angular_speed.reshape(-1)
         pins = np.atleast_1d(self.pins)
         offset = self.offset.reshape(speed.size, pins.size) if pins.size else np.full((speed.size, 1), np.nan)
-        farthest = np.abs(offset).max(axis=1, initial=0.0)
+        size = np.abs(offset)
+        farthest = size.max(axis=1, initial=0.0)
         pin = int(pins[0]) if pins.size else 0
         name = "free end" if pin == 0 else f"pin {pin}"
+        damped = np.iscomplexobj(offset)
         columns = [
             *speed_columns(speed, 5),
             Column("modes_below", self.modes_below.reshape(-1), "modes below"),
-            Column(f"{name.replace(' ', '_')}_offset", offset[:, 0], f"{name} off axis (m)", 5),
-            Column("first_pin_amplification", offset[:, 0] / self.support_radius, "over support", 4),
+        ]
+        if damped:
+            columns += [
+                Column(f"{name.replace(' ', '_')}_amplitude", size[:, 0], f"{name} off axis (m)", 5),
+                Column(f"{name.replace(' ', '_')}_phase", np.angle(offset[:, 0]), "ahead (°)", 4, shown=np.degrees(np.angle(offset[:, 0])), unit="rad"),
+            ]
+        else:
+            columns.append(Column(f"{name.replace(' ', '_')}_offset", offset[:, 0], f"{name} off axis (m)", 5))
+        if self.amplification is not None:
+            first = self.amplification.reshape(speed.size, -1)[:, 0] if pins.size else np.full(speed.size, np.nan)
+            columns.append(Column("first_pin_amplification", np.abs(first) if damped else first, "over support", 4))
+        columns += [
             Column("largest_offset", farthest, "farthest pin (m)", 5),
-            Column("support_force", self.support_force.reshape(-1), f"pull on support{' (N)' if self.system.by_mass else ''}", 5),
-            Column("error_bound", self.error_bound.reshape(-1), "error bound"),
+            Column(
+                "support_force", np.abs(self.support_force).reshape(-1) if damped else self.support_force.reshape(-1),
+                f"pull on support{' (N)' if self.system.by_mass else ''}", 5,
+            ),
+            self._error_column(),
             Column("conical_height", self.conical_height.reshape(-1)),
             Column("resonant", self.resonant.reshape(-1)),
             Column("reversed", self.reversed.reshape(-1)),
-            Column("support_force_error", self.support_force_error.reshape(-1)),
-            Column("offset", offset, axes=("pin",)),
         ]
+        if self.support_force_error is not None:
+            columns.append(Column("support_force_error", self.support_force_error.reshape(-1)))
+        columns.append(Column("offset", offset, axes=("pin",)))
         notes = [
-            "negative: opposite to the support; nan: at a resonance",
-            "error bound: rounding error over the largest offset; pull: outward force on the support",
-            "steady motion of small amplitude, without damping",
+            "ahead of the drive; negative: it lags" if damped else "negative: opposite to the drive; nan: at a resonance",
+            f"error {'bound' if self.error_estimate is None else 'estimate'}: rounding error over the largest offset; pull: "
+            "outward force on the support",
+            f"steady motion of small amplitude, {'with' if damped else 'without'} damping",
         ]
         base = getattr(self.system, "chain", self.system)
-        if farthest.max(initial=0.0, where=np.isfinite(farthest)) - abs(self.support_radius) > BENT * base.total_length:
+        moved = 0.0 if self.force is not None else np.max(np.abs(self._support_amplitude), initial=0.0)
+        if farthest.max(initial=0.0, where=np.isfinite(farthest)) - moved > BENT * base.total_length:
             notes.append("some offsets are not small compared with the chain: use steady_shapes there")
-        heading = f"support moving in a circle of radius {self.support_radius:g} m, or to and fro with this amplitude"
-        facts = {"gravity": self.gravity, "support_radius": self.support_radius, "pins": self.pins}
-        return Sheet("speed", heading, columns, facts, notes, spread=True)
+        facts: dict[str, Any] = {"gravity": self.gravity}
+        drives = {"support_radius": self.support_radius, "acceleration": self.acceleration, "force": self.force}
+        facts |= {name: value for name, value in drives.items() if value is not None}
+        return Sheet("speed", self._heading(), columns, facts | {"pins": self.pins}, notes, spread=True)
+
+    @property
+    def _error(self) -> Floats:
+        """The bound of the error of each offset, or the estimate."""
+        found = self.error_estimate if self.error_bound is None else self.error_bound
+        assert found is not None
+        return found
+
+    def _error_column(self) -> Column:
+        if self.error_bound is None:
+            return Column("error_estimate", self._error.reshape(-1), "error estimate", 2)
+        return Column("error_bound", self._error.reshape(-1), "error bound")
+
+    def _heading(self) -> str:
+        if self.force is not None:
+            unit = " N" if self.system.by_mass else ""
+            return f"support pushed to and fro with {self.force:g}{unit}"
+        if self.acceleration is not None:
+            return f"support moving to and fro with an acceleration of {self.acceleration:g} m/s^2, or in a circle"
+        return f"support moving in a circle of radius {self.support_radius:g} m, or to and fro with this amplitude"
 
 
 class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",), spread=True):
-    """Free motion of a chain, rig or cord after release, as a sum of its k modes; returned by `swing`.
+    """Motion of a chain, rig or cord after release or under a moving support, as a sum of its k modes; returned by `swing`.
 
     Offsets are real if the motion is in one plane. Flywheels with momentum turn the plane: offsets are then complex, x + i y,
     and the modes are whirls of either direction.
@@ -184,10 +260,16 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
         heading=lambda s: "" if s._turns else "free end",
         unit="m/s",
     )
+    support_offset: Field[Floats | None] = Field(
+        "Offset of a support that is moved or pushed, m. Else None.",
+        lambda s: s.offset[:, -1].real if s.motion_end else None,
+        heading="support",
+        unit="m",
+    )
     largest_offset: Field[Floats] = Field(
         "Largest distance of a pin or place from the axis at each time, m.",
         lambda s: np.abs(s.offset).max(axis=1),
-        heading="farthest pin",
+        heading=lambda s: "" if s.motion_end else "farthest pin",
         unit="m",
     )
     error_bound: Field[Floats | None] = Field(
@@ -195,6 +277,16 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
         "inverted. It grows with time only after about 1e9 swings. None for a cord.",
         heading="error bound",
         unit="m",
+    )
+    error_estimate: Field[Floats | None] = Field(
+        "With springs or dashpots at pins, a trolley or a moving support: estimate of the error of each offset, m, shape "
+        "(T,). Else None.",
+        lambda s: None,
+        part=True,
+        axes=(),
+        heading="error estimate",
+        unit="m",
+        digits=2,
     )
     offset: Field[Numbers] = Field(
         "Offsets of the pins, m, shape (T, N + 1), free end first, support last; of a cord at `arc_length`, shape (T, n).",
@@ -204,20 +296,42 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
     velocity: Field[Numbers] = Field("Velocities of the pins or places, m/s, like `offset`.", axes=("pin",), unit="m/s")
     angular_frequency: Field[Floats] = Field(
         "Natural angular frequency of each mode, rad/s, shape (k,), slowest first: the whirl speeds of `modes`, negative for "
-        "backward whirls (of links that do not turn about their own axes).",
+        "backward whirls (of links that do not turn about their own axes). With dashpots 0 for what only decays.",
         fact=True,
     )
-    energy: Field[Floats] = Field(
+    exponent: Field[Complex | None] = Field(
+        "Where there is an `error_estimate`: exponents of the motions, 1/s, shape (k,), as those of `modes`; else None.",
+        lambda s: None,
+        part=True,
+        fact=True,
+    )
+    motion_end: Field[float | None] = Field(
+        "Where there is an `error_estimate`: the time at which the prescribed motion is over, or 0, s; else None.",
+        lambda s: None,
+        part=True,
+        fact=True,
+    )
+    sway: Field[Floats | None] = Field(
+        "Where there is an `error_estimate`: the largest distance of each pin from its resting place after `motion_end`, m, "
+        "shape (N + 1,): the sum of the amplitudes of all motions, which one motion alone reaches. Else None.",
+        lambda s: None,
+        part=True,
+        fact=True,
+    )
+    residual_sway: Field[float | None] = Field("That of the free end, m.", lambda s: None if s.sway is None else float(s.sway[0]))
+    energy: Field[Floats | None] = Field(
         "Energy of each mode, J (weight times length), shape (k,); it is constant. It is negative if momentum keeps an "
-        "inverted link from falling.",
+        "inverted link from falling. None where there is an `error_estimate`.",
         fact=True,
     )
-    shape: Field[Floats] = Field(
-        "Shape of each mode, shape (k, N + 1), the largest offset 1; of a cord, shape (k, n), 1 at the free end."
+    shape: Field[Numbers] = Field(
+        "Shape of each mode, shape (k, N + 1), the largest offset 1; complex with dashpots; of a cord, shape (k, n), 1 at the "
+        "free end."
     )
     amplitude: Field[Complex] = Field(
         "Coefficients, shape (k,), in offset = sum of ``shape * amplitude * exp(1j * angular_frequency * time)``; without "
-        "momentum the real part of this sum.",
+        "momentum the real part of this sum. With an `error_estimate` after `motion_end`, from the resting place, with "
+        "``exp(exponent * (time - motion_end))``.",
         fact=True,
     )
     start: Field[Numbers | None] = Field(
@@ -245,13 +359,20 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
 
     @property
     def _remarks(self) -> str:
+        if self.error_estimate is not None:
+            return "sway: distance from the resting place; error estimate: of every offset"
         if self.error_bound is None:
             return f"error: {self.truncation_error.max():.2g} m at most, estimated from the modes left out"
         plane = "x + i y: the two horizontal directions; " if self._turns else ""
         return f"{plane}error bound: of every offset as a sum of modes, rounding"
 
     def _words(self) -> str:
-        what, energy = "whirl" if self._turns else "mode", np.abs(self.energy)
+        what = "whirl" if self._turns else "mode"
+        if self.energy is None:
+            many = self.angular_frequency.size
+            since = f"after {self.motion_end:.6g} s the free end sways by" if self.motion_end else "the free end sways by"
+            return f"{many} {what}{'s' * (many != 1)}; {since} {self.residual_sway:.5g} m at most"
+        energy = np.abs(self.energy)
         share = energy / energy.sum() if energy.sum() > 0 else energy
         most = np.argsort(share)[::-1][:3]
         words = ", ".join(f"{100 * share[k]:.3g} % in {what} {k + 1}" for k in most if share[k] > 0)

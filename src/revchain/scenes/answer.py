@@ -20,6 +20,7 @@ from ..questions.swing import swing
 from ..systems.chain import Chain
 from ..systems.held import Held
 from ..systems.rig import Rig
+from ..systems.support_motion import KINDS, SupportMotion
 from .parse import choice, written
 from .system import Given, Numbers, System
 from .tables import DEFAULT_MODES, Spread, Table, fields_of, number_fields
@@ -112,18 +113,35 @@ def _explain(table: Table, given: Given, system: System | None, numbers: Numbers
 
 
 def _response(table: Table, given: Given, system: System | None, numbers: Numbers) -> None:
-    """Refuse a speed of 0."""
+    """Refuse a speed of 0, and more than one drive."""
+    drives = [name for name in ("support_radius", "acceleration", "force") if name in given]
+    if len(drives) > 1:
+        numbers.refuse(drives[1], f"does not go with {drives[0]}")
     for name in WINDOWS:
         if not np.all(given.get(name, 1.0)):
             numbers.refuse(name, "must not be 0")
 
 
 def _swing(table: Table, given: Given, system: System | None, numbers: Numbers) -> None:
-    """Check that there is a number for each pin that moves."""
+    """Check that something moves and that there is a number for each pin that does; make the motion of the support."""
+    kinds = {f"support_{kind}": kind for kind in KINDS}
+    moved = {kinds[name]: given.pop(name) for name in kinds if name in given}
+    time = given.pop("support_time", None)
+    if time is not None or moved:
+        try:
+            given["support"] = SupportMotion([] if time is None else time, **moved)
+        except ValueError as error:
+            numbers.refuse("support_time", str(error).partition(": ")[2])
+            return
+    elif "offset" not in given and "velocity" not in given:
+        numbers.refuse("offset", "give offset, velocity or support_time: nothing would move")
     if system is None or system._is_cord or system._is_held:
         return
     support = system._support
-    moving = system.size + (support is not None and math.isfinite(support.stiffness))
+    yields = support is not None and math.isfinite(support.stiffness)
+    if yields and support is not None and support.stiffness == 0 and moved and "force" not in moved:
+        yields = False  # the trolley is moved itself
+    moving = system.size + yields
     for name in ("offset", "velocity"):
         if name in given and len(given[name]) != moving:
             each = f"must have a number for each of the {moving} pins that move"

@@ -241,14 +241,17 @@ class AskResponse(Table, frozen=True):
     support_radius: Annotated[
         MaybePositive, says("Radius of the circle (m); if left out that of [support], or 1 if it has none.")
     ] = UNSET
+    acceleration: Annotated[MaybePositive, says("Amplitude of the support's acceleration (m/s^2), instead of a radius.")] = UNSET
+    force: Annotated[MaybePositive, says("Amplitude of a force on a support that yields (N), instead of a radius.")] = UNSET
 
 
 class AskSwing(Table, frozen=True):
-    """Small oscillations of a hanging chain or rig after release (`revchain.swing`)."""
+    """Small oscillations of a chain or rig after release, or while its support is moved (`revchain.swing`)."""
 
     offset: Annotated[
-        Listed, says("Offset of each pin at the start (m), free end first, without the support unless it yields.")
-    ]
+        Listed | UnsetType,
+        says("Offset of each pin at the start (m), free end first, without the support unless it yields."),
+    ] = UNSET
     velocity: Annotated[
         Listed | UnsetType, says("Velocity of each pin at the start (m/s), in the same order; at rest if left out.")
     ] = UNSET
@@ -256,6 +259,15 @@ class AskSwing(Table, frozen=True):
         last=10.0, steps=201
     )
     count: Annotated[Count | UnsetType, says("Number of modes used, slowest first; all if left out.")] = UNSET
+    support_time: Annotated[
+        Listed | UnsetType, says("Times (s) at which the support has the next velocities, accelerations, offsets or forces.")
+    ] = UNSET
+    support_velocity: Annotated[Listed | UnsetType, says("Its velocities then (m/s), joined by straight lines.")] = UNSET
+    support_acceleration: Annotated[
+        Listed | UnsetType, says("Its accelerations then (m/s^2), joined by straight lines.")
+    ] = UNSET
+    support_offset: Annotated[Listed | UnsetType, says("Its places then (m), joined by a spline.")] = UNSET
+    support_force: Annotated[Listed | UnsetType, says("Forces on it then (N), joined by straight lines.")] = UNSET
 
 
 class AskBranches(Table, frozen=True):
@@ -282,7 +294,7 @@ class Ask(Table, frozen=True):
     modes: Annotated[AskModes | UnsetType, says("Whirl speeds and mode shapes.")] = UNSET
     shapes: Annotated[AskShapes | UnsetType, says("Steady shapes at any inclination.")] = UNSET
     response: Annotated[AskResponse | UnsetType, says("Forced motion by a moving support.")] = UNSET
-    swing: Annotated[AskSwing | UnsetType, says("Free motion after release.")] = UNSET
+    swing: Annotated[AskSwing | UnsetType, says("Motion after release, or under a moving support.")] = UNSET
     branches: Annotated[AskBranches | UnsetType, says("All branches of steady shapes.")] = UNSET
 
 

@@ -47,6 +47,11 @@ def _of_each(name: str, link: int, shapes: Any) -> list[Any]:
     return [getattr(shape, name)[link] for shape in shapes]
 
 
+def _signed(numbers: Any) -> Any:
+    """Numbers with their signs; of complex ones, with dashpots, the sizes."""
+    return np.abs(numbers) if np.iscomplexobj(numbers) else numbers
+
+
 _OF_MODES = {"angular_speed": "rad/s", "conical_height": "m", "error_bound": "", "speed_error_bound": ""}
 _TURNS = (("forward", 1, "rig"), ("backward", -1, "spinning"))
 _ANSWERS = {"modes": Scene.modes, "shapes": Scene.steady_shapes, "response": Scene.response}
@@ -68,10 +73,10 @@ OUTPUTS = {
     "top_tension": Output("shapes", partial(_of_each, "tension", -1), "N", along="shape"),
     "shape_error_bound": Output("shapes", lambda shapes: [shape.error_bound for shape in shapes], along="shape"),
     "response_angular_speed": Output("response", attrgetter("angular_speed"), "rad/s", along="speed"),
-    "response_free_end_offset": Output("response", lambda moved: moved.offset[..., 0], "m", along="speed"),
+    "response_free_end_offset": Output("response", lambda moved: _signed(moved.offset[..., 0]), "m", along="speed"),
     "response_largest_offset": Output("response", lambda moved: np.abs(moved.offset).max(axis=-1), "m", along="speed"),
-    "support_force": Output("response", attrgetter("support_force"), "N", along="speed"),
-    "response_error_bound": Output("response", attrgetter("error_bound"), along="speed"),
+    "support_force": Output("response", lambda moved: _signed(moved.support_force), "N", along="speed"),
+    "response_error_bound": Output("response", attrgetter("_error"), along="speed"),
 }
 
 
@@ -153,7 +158,7 @@ def answers(scene: Scene, find: Sequence[str]) -> tuple[dict[str, Any], bool]:
     proved = [
         "modes" not in found or found["modes"].status == "success",
         "shapes" not in found or found["shapes"].complete,
-        "response" not in found or np.isfinite(found["response"].error_bound).all(),
+        "response" not in found or np.isfinite(found["response"]._error).all(),
     ]
     return found, all(proved)
 

@@ -40,8 +40,8 @@ _NAMES = {
     "tip_radius support_radius offset arc_length displaced_centroid displaced_radius_of_gyration "
     "height x arm thread rod distance deflection tip slack sag arc place pendulum",
     "a mass": "mass added_mass tip_mass",
-    "a force": "weight added_weight tip_weight tension top_tension",
-    "an acceleration": "gravity",
+    "a force": "weight added_weight tip_weight tension top_tension force",
+    "an acceleration": "gravity acceleration",
     "a force per length": "stiffness",
     "a force over a speed": "damping",
     "a torque over an angle": "pin_stiffness",

@@ -8,13 +8,12 @@
 
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/pencil/complex/word.hpp"
-#include "revchain/pencil/jointed.hpp"
+#include "revchain/pencil/damped/form.hpp"
 
 /// Exponents s of K + s (C - i G) + s^2 M: starts from Eigen, refined one by one.
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-using DampedPencil = SignedPencil<Wide<double>>;
 using Complex = std::complex<double>;
 
 /// A complex number of two built-in words that is made of a double word.
@@ -30,14 +29,6 @@ struct Rough : Complex {
     }
     friend Rough operator/(const Rough& x, const Rough& y) { return Complex(x) / Complex(y); }
 };
-
-/// Returns the factors of K + s (C - i G) + s^2 M; `slope`: of its derivative.
-template <class F>
-JointFactors<F> damped_factors(const F& s, const F& i, bool slope = false) {
-    const F one(Wide<double>(1.0)), none(Wide<double>(0.0));
-    if (slope) return {none, -i, one, s + s};
-    return {one, none - i * s, s, s * s};
-}
 
 /// An exponent in units of `RigPencil::pace`, and its vector of rotations.
 struct DampedRoot {
