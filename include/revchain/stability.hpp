@@ -32,7 +32,8 @@ enum class StabilityFrame {
 /// Whether a small disturbance of a steady shape grows.
 enum class Verdict {
     minimum,            ///< it stays small: the energy is least (free: at fixed angular momentum)
-    spectrally_stable,  ///< no minimum, but gyroscopic forces keep it from growing, to first order
+    spectrally_stable,  ///< no minimum, but gyroscopic forces keep it from growing, to first
+                        ///< order; with dashpots: it decays
     unstable,           ///< it grows
     undecided,          ///< unknown, because of the errors of the exponents
 };
@@ -134,8 +135,12 @@ struct RigStabilityOptions {
 /// not modelled, so there are no exponents. The energy tells whether a shape is a minimum, at
 /// constant speed and apart from a rotation. A minimum is stable in any fluid, viscous or not;
 /// otherwise the verdict is undecided and the growth rate NaN.
-/// Throws InvalidArgument as above, for a pin or a motion without mass (unless the fluid turns),
-/// and for a flywheel that acts on a massless upper end.
+/// With dashpots at pins the exponents are damped, of any strength; `internal_damping` is what a
+/// little more adds. Dashpots act on the rates at which links turn against one another: none in the
+/// steady motion itself. A shape of which every disturbance decays, and that is no minimum, is
+/// `spectrally_stable`.
+/// Throws InvalidArgument as above, for a pin or a motion without mass (unless the fluid turns), a
+/// flywheel or dashpots at a massless upper end, springs at pins, and a dashpot at the support.
 REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Rig& rig, const SteadyShape& shape,
                                   const RigStabilityOptions& options = {});

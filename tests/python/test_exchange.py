@@ -323,7 +323,7 @@ def test_back_to_the_last_digit(system, of_shape, form, tmp_path):
             read(write(given))
         return
     if form == "urdf" and isinstance(system, rc.Rig) and np.isfinite(system.support.stiffness):
-        with pytest.raises(ValueError, match="URDF has no springs; use to_mjcf, got a support of stiffness 300"):
+        with pytest.raises(ValueError, match="URDF has no springs.*use to_mjcf, got a support of stiffness 300"):
             write(given)
         return
     text = write(given, tmp_path / "model.xml")
@@ -429,28 +429,171 @@ def test_models_of_others():
     assert "-0.4" in arm and rc.from_mjcf(arm).support.radius == 0.3  # from the axis, however low the pin
 
 
-def test_swing_of_a_model_of_others():
-    """MuJoCo's own linearised motion has the natural frequencies of the chain that was read."""
-    model = mujoco.MjModel.from_xml_string(
-        PLANE.replace("<worldbody>", '<option timestep="1e-4" integrator="RK4"/><worldbody>')
-    )
-    data = mujoco.MjData(model)
-    stiffness = np.empty((2, 2))
-    for k in range(2):
-        forces = []
-        for step in (1e-6, -1e-6):
-            data.qpos[:], data.qvel[:], data.qacc[:] = 0, 0, 0
-            data.qpos[k] = step
-            mujoco.mj_inverse(model, data)
-            forces.append(data.qfrc_inverse.copy())
-        stiffness[:, k] = (forces[0] - forces[1]) / 2e-6
-    inertia = np.empty((2, 2))
-    data.qpos[:] = 0
-    mujoco.mj_forward(model, data)
-    for column in range(2):
-        mujoco.mj_mulM(model, data, inertia[column], np.eye(2)[column])
-    speeds = np.sqrt(np.sort(np.linalg.eigvals(np.linalg.solve(inertia, stiffness)).real))
-    assert rc.modes(rc.from_mjcf(PLANE), gravity=9.81).angular_speed == pytest.approx(speeds, rel=1e-7)
+POLE = '<inertial pos="0 0 -0.4" mass="0.8" diaginertia="0.05 0.05 0.01"/>'
+CART = f"""<mujoco><worldbody>
+  <body name="cart" pos="0 0 1"><joint name="rail" type="slide" axis="1 0 0" damping="0.2" range="-2 2"/><geom size="0.1" mass="1.5"/>
+    <body name="pole"><joint axis="0 1 0" damping="0.3"/>{POLE}
+      <body name="tip" pos="0 0 -0.9"><joint axis="0 1 0" stiffness="1.2"/>{POLE}<site pos="0 0 -0.8"/></body>
+    </body></body>
+</worldbody><actuator><motor joint="rail" ctrlrange="-1 1"/></actuator></mujoco>"""
+SPACE_CART = re.sub('(<joint axis="0 1 0" )(.*?/>)', r'\1\2<joint axis="1 0 0" \2', CART)
+OTHERS = {
+    "plane": PLANE,
+    "dashpots": PLANE.replace('"hinge"', '"hinge" damping="0.4"'),
+    "springs": PLANE.replace('"hinge"', '"hinge" damping="0.4" stiffness="7"'),
+    "cart": CART,
+    "cart on a spring": CART.replace('name="rail"', 'name="rail" stiffness="20"'),
+    "balls": PLANE.replace('"hinge"', '"ball" damping="0.4" stiffness="7"').replace("0.3 0.4 0.35", "0.3 0.3 0.2"),
+}
+OTHERS["balls"] = OTHERS["balls"].replace("0.1 0.16 0.1", "0.1 0.1 0.2")
+
+
+def exponents(text):
+    """Of small motions in MuJoCo, from central differences of its forces about the first keyframe or the pose at rest."""
+    model = mujoco.MjModel.from_xml_string(text)
+    data, size = mujoco.MjData(model), model.nv
+    if model.nkey:
+        mujoco.mj_resetDataKeyframe(model, data, 0)
+    rest, inertia, step = data.qpos.copy(), np.empty((size, size)), 1e-5
+
+    def force(way):
+        data.qpos[:], data.qvel[:], data.qacc[:] = rest, way[size:], 0
+        mujoco.mj_integratePos(model, data.qpos, way[:size], 1.0)
+        mujoco.mj_inverse(model, data)
+        return data.qfrc_inverse.copy()
+
+    held = np.stack([(force(step * way) - force(-step * way)) / (2 * step) for way in np.eye(2 * size)], 1)
+    force(np.zeros(2 * size))
+    for column, way in zip(inertia, np.eye(size), strict=True):
+        mujoco.mj_mulM(model, data, column, way)
+    faster = -np.linalg.solve(inertia, held)
+    return np.linalg.eigvals(np.block([[np.zeros((size, size)), np.eye(size)], [faster]]))
+
+
+def agree(system, found, gravity, times):
+    """All exponents of the modes, and their conjugates, are among those of MuJoCo, whose others are 0 (and twice in space)."""
+    wanted = rc.modes(system, gravity=gravity).exponent
+    wanted = np.concatenate([wanted, wanted[wanted.imag > 0].conj()])
+    assert np.abs(wanted[:, None] - found).min(1).max() < 1e-9 * max(1.0, np.abs(wanted).max())  # measured 1e-11
+    assert np.count_nonzero(np.abs(found) > 1e-3) == times * wanted.size
+
+
+@pytest.mark.parametrize("text", OTHERS.values(), ids=OTHERS)
+def test_swing_of_a_model_of_others(text):
+    """MuJoCo's own linearised motion has the exponents of the chain or rig that was read."""
+    found = exponents(text)
+    if "ball" in text:  # the links twist too
+        wanted = rc.modes(rc.from_mjcf(text), gravity=9.81).exponent
+        assert np.abs(wanted[:, None] - found).min(1).max() < 1e-9
+    else:
+        agree(rc.from_mjcf(text), found, 9.81, times=1)
+
+
+def test_carts():
+    """What a cart is read as: a trolley on one slide; motors, and the ends of its rail, are left out."""
+    rig = rc.from_mjcf(CART)
+    assert rig.support == rc.Support(mass=1.5, damping=0.2) and rig.chain.names == ("tip", "pole")
+    assert rig.pins == rc.Pin(stiffness=[1.2, 0.0], damping=[0.0, 0.3])
+    sprung = rc.from_mjcf(OTHERS["cart on a spring"])
+    assert sprung.support == rc.Support(stiffness=20.0, mass=1.5, damping=0.2) and not sprung.inverted.any()
+    free = rc.from_mjcf(CART.replace('damping="0.2"', "").replace('damping="0.3"', "").replace('stiffness="1.2"', ""))
+    assert free == rc.Rig(rig.chain, support=rc.Support(mass=1.5))
+
+
+def test_springs_that_hold_links_up():
+    """A spring at the lowest pin of a pole that stands says which way it is straight; one that is bent there does not."""
+    standing = PLANE.replace('name="a" type="hinge"', 'name="a" type="hinge" stiffness="90" springref="180"')
+    assert rc.from_mjcf(standing).inverted.tolist() == [False, True]
+    both = standing.replace('name="b" type="hinge"', 'name="b" type="hinge" stiffness="40"')
+    assert rc.from_mjcf(both).inverted.tolist() == [True, True]
+    assert rc.from_mjcf(both.replace('"180"', '"-180" ref="-180"')).inverted.tolist() == [False, False]
+
+
+def random_rig(seed):
+    rng = np.random.default_rng(seed)
+    size = int(rng.integers(1, 6))
+    mass, length, centroid, radius = np.exp(rng.normal(0, 0.5, (4, size)))
+    chain = rc.Chain(mass=mass, length=length, centroid=centroid, radius_of_gyration=radius)
+    trolley, spring = {"mass": 1.3}, {"mass": 0.7, "stiffness": 50.0}
+    support = ({}, trolley, trolley | {"damping": 0.7}, spring, spring | {"damping": 2.0})[seed % 5]
+    stiffness, damping = rng.uniform(0, [[30.0], [2.0]], (2, size)) * (rng.random((2, size)) < 0.7)
+    pins = ({"stiffness": stiffness, "damping": damping}, {"stiffness": stiffness}, {"damping": damping}, {})[seed // 5 % 4]
+    return rc.Rig(chain, support=rc.Support(**support), pins=rc.Pin(**pins))
+
+
+@pytest.mark.parametrize("seed", range(1, 21))
+def test_rigs_with_springs_and_dashpots(seed):
+    """Written and read they are the same; MuJoCo moves as their modes say, in two directions."""
+    rig = random_rig(seed)
+    text = rc.to_mjcf(rig)
+    found = rc.from_mjcf(text)
+    assert found == (rig.chain if rig == rc.Rig(rig.chain) else rig)
+    assert getattr(found, "support", rc.Support()) == rig.support
+    agree(rig, exponents(text), 9.80665, times=2)
+
+
+def test_crane_and_double_pendulum():
+    """Systems given by weight are the same in kilograms; springs and dashpots in newtons stay."""
+    crane = rc.Rig(rc.Chain(mass=4000.0, length=10.0), support=rc.Support(mass=1000.0))
+    text = rc.to_mjcf(crane, gravity=9.81)
+    assert rc.from_mjcf(text) == crane and "stiffness" not in text
+    agree(crane, exponents(text), 9.81, times=2)
+    assert rc.modes(crane, gravity=9.81).angular_speed == pytest.approx(np.sqrt(9.81 * 5000.0 / (10.0 * 1000.0)), rel=1e-15)
+    how = {"support": rc.Support(stiffness=40.0, damping=3.0, weight=4.0), "pins": rc.Pin(stiffness=2.0, damping=[0.5, 1.5])}
+    double = rc.Rig(rc.Chain(weight=[9.0, 18.0], length=[0.6, 0.9]), **how)
+    text = rc.to_mjcf(double, gravity=8.0)
+    found = rc.from_mjcf(text)
+    how["support"] = rc.Support(stiffness=40.0, damping=3.0, mass=0.5)
+    assert found == rc.Rig(rc.Chain(mass=[1.125, 2.25], length=[0.6, 0.9]), **how)
+    for rig in (double, found):
+        agree(rig, exponents(text), 8.0, times=2)
+
+
+def test_simulation_decays_as_the_modes_say():
+    """A push sideways at the free end of a damped double pendulum; its own motion follows after the same time."""
+    rig = rc.Rig(rc.Chain.uniform_rods(2, length=1.0, mass=2.0), pins=rc.Pin(stiffness=1.0, damping=[0.3, 0.2]))
+    model, data = started(rc.to_mjcf(rig))
+    data.joint("link_0_sideways").qvel[:] = push = 1e-6
+    rates = []
+    for _ in range(200):
+        mujoco.mj_step(model, data, 10)
+        rates.append([data.joint(f"link_{k}_sideways").qpos[0] for k in (0, 1)])
+    found = np.array(rates) / push
+    exponent = rc.modes(rig).exponent
+    time = np.arange(1, 201) * 10 * model.opt.timestep
+    base = np.exp(np.outer(time, exponent))
+    base = np.hstack([base.real, base.imag])
+    left = found - base @ np.linalg.lstsq(base, found, rcond=None)[0]
+    assert np.abs(left).max() < 1e-6 * np.abs(found).max() and model.opt.timestep < 0.02
+
+
+def test_inverted_links_on_springs():
+    """Springs are relaxed where the links stand, and say so when the file is read."""
+    rig = rc.Rig(RODS, inverted=[False, True, True], pins=rc.Pin(stiffness=[40.0, 60.0, 90.0], damping=0.2))
+    text = rc.to_mjcf(rig)
+    assert rc.from_mjcf(text) == rig
+    agree(rig, exponents(text), 9.80665, times=2)
+
+
+def test_dashpots_of_a_steady_shape_are_at_rest():
+    """In rigid whirl no hinge moves."""
+    rig = rc.Rig(RODS, pins=rc.Pin(damping=0.5), support=rc.Support(stiffness=300.0, mass=0.5))
+    for shape in shapes_of(rig):
+        model, data = started(rc.to_mjcf(shape))
+        data.qacc[:] = 0
+        mujoco.mj_inverse(model, data)
+        assert np.abs(data.qfrc_inverse).max() <= 1e-12 * scale(rig) and model.dof_damping.any()
+    assert rc.from_mjcf(rc.to_mjcf(shapes_of(rig)[0])) == rig
+
+
+def test_springs_and_dashpots_in_urdf():
+    """URDF joints have damping, but no springs."""
+    rig = rc.Rig(BODIES, pins=rc.Pin(damping=[0.5, 0.0, 0.2]), support=rc.Support(radius=0.2))
+    assert rc.from_urdf(rc.to_urdf(rig)) == rig
+    with pytest.raises(ValueError, match="URDF has no springs, and trolleys are not written; use to_mjcf, got springs at pins"):
+        rc.to_urdf(rc.Rig(RODS, pins=rc.Pin(stiffness=1.0)))
+    with pytest.raises(ValueError, match="trolleys are not written; use to_mjcf, got a support of stiffness 0"):
+        rc.to_urdf(rc.Rig(RODS, support=rc.Support(mass=1.0)))
 
 
 def test_a_turning_support_keeps_axial_moments():
@@ -464,14 +607,20 @@ def test_a_turning_support_keeps_axial_moments():
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("</worldbody>", '</worldbody><actuator><motor joint="b"/></actuator>', "the model has actuators, which a chain does not have; take them away"),
+        ("</worldbody>", '</worldbody><actuator><position name="servo" joint="b"/></actuator>', "actuator 'servo' acts without a signal, and a chain has no motors; take it away"),
+        ("</worldbody>", '</worldbody><actuator><motor joint="b" ctrllimited="true" ctrlrange="1 2"/></actuator>', "an actuator acts without a signal, as its ctrlrange does not contain 0; take it away"),
+        ("</worldbody>", '</worldbody><actuator><motor joint="a"/><velocity name="brake" joint="b"/></actuator>', "actuator 'brake' acts without a signal"),
         ("</worldbody>", '</worldbody><equality><connect body1="lower" anchor="0 0 0"/></equality>', "has equality constraints"),
         ('name="lower"', 'name="lower" gravcomp="1"', "gravity does not act on all bodies"),
         ("<worldbody>", '<option density="1.2"/><worldbody>', "in a fluid, whose forces are not read; set density"),
         ("</body></body>", '</body><body><joint/><geom size="1"/></body></body>', "body 'lower' and body number 3 both hang from body 'upper'"),
         ("</body></body>", '<body name="bob"><geom size="1"/></body></body></body>', "body 'bob' is fixed to body 'lower'; make them one"),
-        ('name="b" type="hinge"', 'name="b" type="hinge" damping="0.5"', "joint 'b' has damping 0.5; set it to 0"),
-        ('name="b" type="hinge"', 'name="b" type="hinge" stiffness="3"', "joint 'b' has stiffness 3; set it to 0"),
+        ('name="b" type="hinge"', 'name="b" type="hinge" damping="-0.5"', "joint 'b' has a negative damping, -0.5; give 0 or more"),
+        ('name="b" type="hinge"', 'name="b" type="hinge" stiffness="-3"', "joint 'b' has a negative stiffness, -3; give 0 or more"),
+        ('name="b" type="hinge"', 'name="b" type="hinge" stiffness="3" springref="20"', "joint 'b' has a spring that is relaxed 20 degrees from the link above; set springref to where the chain is straight"),
+        ('name="a" type="hinge"', 'name="a" type="hinge" stiffness="3" springref="20"', "joint 'a' has a spring that is relaxed 20 degrees from the vertical"),
+        ('name="a" type="hinge"', 'name="a" type="hinge" springref="nan"', "springref of all joints must be finite and at most 1e.75, got"),
+        ('name="a" type="hinge"', 'name="a" type="hinge" damping="1e80"', "joint 'a': damping must be finite and at most 1e.75, got 1e.80"),
         ('name="b" type="hinge"', 'name="b" type="hinge" armature="0.1"', "joint 'b' has armature 0.1; set it to 0"),
         ('name="b" type="hinge"', 'name="b" type="hinge" frictionloss="1"', "joint 'b' has frictionloss 1; set it to 0"),
         ('name="b" type="hinge"', 'name="b" type="hinge" range="-1 1"', "joint 'b' has a range; take it away"),
@@ -482,7 +631,9 @@ def test_a_turning_support_keeps_axial_moments():
         ('pos="0 0 -0.2"', 'pos="0.1 0 -0.2"', "centre of gravity of body 'upper' is not on the line"),
         ('<joint name="b" type="hinge" axis="0 1 0"/>', "", "body 'lower' is fixed to body 'upper'; make them one body"),
         ('<joint name="a" type="hinge" axis="0 1 0"/>', '<freejoint name="a"/>', "joint 'a' is neither a hinge nor a ball joint"),
-        ('<joint name="a" type="hinge" axis="0 1 0"/>', '<joint type="slide" axis="1 0 0"/>', "body 'upper' slides, but not on two equal springs"),
+        ('<joint name="a" type="hinge" axis="0 1 0"/>', '<joint type="slide" axis="1 0 1"/>', "body 'upper' slides, but not on two level joints at right angles, nor on one in a plane model"),
+        ('<joint name="a" type="hinge" axis="0 1 0"/>', '<joint name="rail" type="slide" axis="0 1 0"/>', "joint 'rail' is the only slide, but the links do not move in its plane alone; give the carriage a second slide"),
+        ('<joint name="a" type="hinge" axis="0 1 0"/>', '<joint name="rail" type="slide" axis="1 0 0" range="0 1"/>', "joint 'rail' has a range; take it away"),
     ],
 )  # fmt: skip
 def test_what_is_no_chain(old, new, message):
@@ -492,16 +643,23 @@ def test_what_is_no_chain(old, new, message):
 
 
 SPRING = rc.to_mjcf(RIGS["spring"])
+SPRUNG = rc.to_mjcf(rc.Rig(RODS, support=rc.Support(stiffness=300.0), pins=rc.Pin(stiffness=4.0, damping=0.5)))
 BALL = PLANE.replace('name="b" type="hinge" axis="0 1 0"', 'name="b" type="ball"')
 
 
 @pytest.mark.parametrize(
     ("text", "old", "new", "message"),
     [
-        (SPRING, 'stiffness="300"', 'stiffness="300" damping="2"', "joint 'carriage_x' has damping 2; set it to 0"),
+        (SPRING, 'stiffness="300"', 'stiffness="300" frictionloss="2"', "joint 'carriage_x' has frictionloss 2; set it to 0"),
+        (SPRING, 'axis="0 1 0" stiffness="300"', 'axis="0 1 0" stiffness="300" damping="2"', "the joints of body 'carriage' have damping 0 and 2; give both the same"),
+        (SPRUNG, 'name="link_1_sideways" type="hinge" axis="1 0 0" stiffness="4"', 'name="link_1_sideways" type="hinge" axis="1 0 0"', "the joints of body 'link_1' have stiffness 4 and 0; give both the same"),
+        (SPRUNG, 'name="link_1_sideways" type="hinge" axis="1 0 0"', 'name="link_1_sideways" type="hinge" axis="1 0.1 0"', "springs and dashpots at the pin of body 'link_1' need one hinge, two at right angles or a ball"),
+        (SPRUNG, '<joint name="link_0_inclination"', '<joint axis="0 0 1" stiffness="4" damping="0.5"/><joint name="link_0_inclination"', "springs and dashpots at the pin of body 'link_0' need"),
+        (SPRUNG.replace('axis="0 1 0" stiffness="300"', 'axis="0 1 0"'), "", "", "the joints of body 'carriage' have stiffness 300 and 0"),
+        (SPACE_CART, "", "", "joint 'rail' is the only slide, but the links do not move in its plane alone"),
         (SPRING, 'stiffness="300"', 'stiffness="300" springref="0.1"', r"'carriage_x' has a spring that is not at rest \(springref\)"),
-        (SPRING, 'axis="0 1 0" stiffness="300"', 'axis="0 1 0" stiffness="200"', "'carriage' slides, but not on two equal springs"),
-        (SPRING, 'axis="0 1 0" stiffness="300"', 'axis="0 1 1" stiffness="300"', "'carriage' slides, but not on two equal springs"),
+        (SPRING, 'axis="0 1 0" stiffness="300"', 'axis="0 1 0" stiffness="200"', "the joints of body 'carriage' have stiffness 300 and 200; give both the same"),
+        (SPRING, 'axis="0 1 0" stiffness="300"', 'axis="0 1 1" stiffness="300"', "'carriage' slides, but not on two level joints at right angles"),
         (BALL, "", "", "body 'lower' is not alike all round its axis"),
         (BALL, "0.1 0.16 0.1", "0.16 0.16 0.1", "some links have one hinge and some have more"),
         (PLANE, '<joint name="a"', '<joint pos="0 0 0.1" axis="1 0 0"/><joint name="a"', "the joints of body 'upper' are at different places"),
@@ -541,6 +699,7 @@ def test_changed_models(tmp_path, monkeypatch):
     """A model of any numbers is read, or refused in a sentence of ours, without a warning of numpy."""
     monkeypatch.chdir(tmp_path)  # MuJoCo writes a list of its warnings
     models = [(rc.from_mjcf, rc.to_mjcf(system)) for system in (BODIES, *RIGS.values())]
+    models += [(rc.from_mjcf, CART), (rc.from_mjcf, SPRUNG)]
     models += [(rc.from_urdf, rc.to_urdf(system)) for system in (BODIES, RIGS["arm"])] + [(rc.from_mjcf, PLANE)]
     outcomes = {"read": 0, "refused": 0}
     for seed in range(300):

@@ -83,6 +83,48 @@ def test_exponents_are_those_of_lagranges_equations(name, frame):
     assert compared > 3
 
 
+def with_dashpots(rig, damping):
+    return rc.Rig(
+        rig.chain, support=rig.support, flywheels=rig.flywheels, displaced=rig.displaced, fluid=rig.fluid,
+        inverted=rig.inverted, pins=rc.Pin(damping=damping),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("frame", ["free", "driven"])
+@pytest.mark.parametrize("name", RIGS)
+def test_exponents_with_dashpots_are_those_of_damped_motions(name, frame):
+    """Dashpots of any strength, unlike at each pin."""
+    rig, compared = RIGS[name], 0
+    refused = {"spring without mass": "with dashpots a support must not be without mass"}
+    if frame == "free":
+        refused["driven wheels"] = "dashpots and a driven wheel are not solved together"
+    if name in refused:
+        shape = shapes_of(rig, 1)[0]
+        shape = rc.steady_shapes(with_dashpots(rig, 0.1), conical_height=shape.conical_height, hanging_only=False)[0]
+        with pytest.raises(ValueError, match=refused[name]):
+            shape.stability(frame=frame)
+        return
+    scale = rig.chain.total_weight / G * rig.chain.total_length**2
+    for k, shape in enumerate(shapes_of(rig, by_tier(2, 4))):
+        damping = scale * shape.angular_speed * 10.0 ** np.random.default_rng(k).uniform(-2.5, -0.5, len(rig))
+        damped = with_dashpots(rig, damping)
+        (same,) = (each for each in rc.steady_shapes(damped, conical_height=shape.conical_height, hanging_only=False)
+                   if np.array_equal(each.inclination, shape.inclination))  # fmt: skip
+        got = same.stability(frame=frame)
+        exact = exponents(small_motions(rig, shape, frame, damping), friction=1.0)
+        largest = max(map(abs, exact))
+        for value, bound in zip(got.exponents, got.exponent_error, strict=True):
+            near = sorted(abs(mp.mpc(complex(value)) - s) for s in exact)
+            assert near[0] <= 1e-7 * largest
+            if near[1] > largest / 100:
+                compared += 1
+                assert near[0] <= 5e-13 * largest and near[0] <= bound
+        growth = max(mp.re(s) for s in exact)
+        assert abs(growth - got.growth_rate) <= 1e-6 * largest or (growth < 0 and got.growth_rate == 0)
+        assert got.verdict != "unstable" or growth > 1e-7 * largest
+    assert compared > 3
+
+
 @pytest.mark.parametrize("frame", ["free", "driven"])
 @pytest.mark.parametrize("name", RIGS)
 def test_rates_of_damping_are_those_of_damped_motions(name, frame):

@@ -49,7 +49,14 @@ class TransientMotion {
         result_.offset.resize(rows, pins), result_.velocity.resize(rows, pins);
         result_.error_estimate.resize(rows);
         superpose();
-        if (motions_.system().inertia && !(loss_ < 1e-9)) step_through();
+        if (motions_.system().inertia && !(loss_ < 1e-9)) {
+            const Transient sum = result_;
+            step_through();
+            const auto most = [](const Transient& of) {
+                return of.error_estimate.size() == 0 ? 0.0 : of.error_estimate.maxCoeff();
+            };
+            if (motions_.all_found() && most(sum) <= most(result_)) result_ = sum;
+        }
         return std::move(result_);
     }
 

@@ -4,7 +4,7 @@
 The support turns about the vertical; each link has two hinges at its upper pin, one that inclines it in the turning plane and
 one that moves it out of it. A link of revchain has no moment of inertia about its own axis, so that its direction is all
 that counts and a support on the axis neither drives the chain nor is driven by it. In steady motion all joints but that of
-the support are at rest.
+the support are at rest. Springs and dashpots at a pin act on both of its hinges.
 """
 
 from __future__ import annotations
@@ -46,8 +46,12 @@ class Mechanism:
         (radius of gyration / length) squared in two words, as the chain holds it.
     wheeled : array of bool, shape (N,)
         Whether a link has a wheel that carries an angular momentum along it.
-    radius, stiffness, carriage : float
-        Radius and stiffness of the support, and the mass that moves with it; a firm support has infinite stiffness.
+    pin_stiffness, pin_damping, rest : array, shape (N,)
+        Springs and dashpots at the upper pins, and the angles of the hinges at which the springs are relaxed: 0, or a half
+        turn where a link stands on one that hangs, or hangs from one that stands.
+    radius, stiffness, damping, carriage : float
+        Radius, stiffness and damping of the support, and the mass that moves with it; a firm support has infinite
+        stiffness, a trolley 0.
     turning : float
         Moment of inertia of the support about the axis.
     gravity : float
@@ -61,8 +65,12 @@ class Mechanism:
     radius_of_gyration: Floats
     ratio: Floats
     wheeled: Any
+    pin_stiffness: Floats
+    pin_damping: Floats
+    rest: Floats
     radius: float
     stiffness: float
+    damping: float
     carriage: float
     turning: float
     gravity: float
@@ -74,7 +82,7 @@ class Mechanism:
 
     @property
     def yields(self) -> bool:
-        """Whether the support is held by a spring."""
+        """Whether the support is a carriage: on a spring, or a trolley."""
         return math.isfinite(self.stiffness)
 
     @property
@@ -139,8 +147,6 @@ def mechanism(function: str, given: Any, gravity: float | None) -> tuple[Mechani
     if rig._floats:
         instead = "give the rig without displaced"
         raise ValueError(f"{function}: a fluid has no counterpart in the engine; {instead}, got {rig!r}")
-    if rig._has_pins:
-        raise ValueError(f"{function}: springs and dashpots at pins are not written yet; leave them out, got {rig!r}")
     made, momentum, axial = _bodies(function, rig, gravity)
     if shapes is None:
         return made, [_at_rest(rig, made, momentum)]
@@ -173,6 +179,7 @@ def _bodies(function: str, rig: Rig, gravity: float) -> tuple[Mechanism, Floats,
         )
     support = rig.support
     stretched = float(mass.sum()) * (chain.total_length + support.radius) ** 2
+    inclination = np.where(rig.inverted, math.pi, 0.0)
     made = Mechanism(
         names=_names(chain),
         mass=mass,
@@ -182,10 +189,14 @@ def _bodies(function: str, rig: Rig, gravity: float) -> tuple[Mechanism, Floats,
         radius_of_gyration=radius,
         ratio=np.stack([np.broadcast_to(word, size) for word in chain._compiled.__getstate__()[4:6]]),
         wheeled=wheeled,
+        pin_stiffness=rig._pin("stiffness"),
+        pin_damping=rig._pin("damping"),
+        rest=inclination - np.append(inclination[1:], 0.0),
         radius=support.radius,
         stiffness=support.stiffness,
+        damping=support.damping,
         carriage=support.carriage / per,
-        turning=stretched * (HELD if support.radius else 1.0),
+        turning=stretched * (HELD if support.radius or rig.is_damped else 1.0),
         gravity=gravity,
     )
     return made, momentum, axial
@@ -214,9 +225,8 @@ def _names(chain: Chain) -> tuple[str, ...]:
 
 def _at_rest(rig: Rig, made: Mechanism, momentum: Floats) -> State:
     inclination = np.where(rig.inverted, math.pi, 0.0)
-    angle = inclination - np.append(inclination[1:], 0.0)
     hung = np.cumsum(made.mass) * made.gravity
-    return State("rest", 0.0, angle, 0.0, _rates(made, momentum, 0.0, inclination), hung)
+    return State("rest", 0.0, made.rest, 0.0, _rates(made, momentum, 0.0, inclination), hung)
 
 
 def _steady(name: str, shape: SteadyShape, made: Mechanism, momentum: Floats, axial: Floats) -> State:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from contextlib import suppress
 from pathlib import Path
@@ -15,15 +16,16 @@ from ..results.files import naming
 from ..systems.chain import Chain
 from ..systems.extras import require
 from ..systems.numbers import Floats, file_path
-from ..systems.rig import Flywheel, Rig, Support
+from ..systems.rig import Flywheel, Pin, Rig, Support
 from .mechanism import radius_of_gyration
 from .write import LEAST, LEAST_OF_URDF, RATIO
 
 _NEAR = 1e-9  # parts of a length, an axis or a moment by which a model may differ from a straight link
-_FORCES = ("jnt_stiffness", "jnt_stiffnesspoly", "dof_damping", "dof_dampingpoly", "dof_frictionloss", "dof_armature")
+_FORCES = ("jnt_stiffnesspoly", "dof_dampingpoly", "dof_frictionloss", "dof_armature")  # that are not read
 _NUMBERS = {
     "body": ("pos", "quat", "mass", "inertia", "ipos", "iquat"),
     "jnt": ("pos", "axis", "stiffness"),
+    "dof": ("damping",),
     "geom": ("pos", "quat", "size"),
     "site": ("pos",),
 }
@@ -31,7 +33,6 @@ _MOST = 1e75  # of a number, so that the product of four is finite
 _MORE = {
     "neq": "equality constraints",
     "ntendon": "tendons",
-    "nu": "actuators",
     "nflex": "flexes",
     "nplugin": "plugins",
 }
@@ -49,14 +50,14 @@ def from_mjcf(source: str | os.PathLike[str]) -> Chain | Rig:
     Returns
     -------
     Chain or Rig
-        By mass; a `Rig` if the model has a support on an arm or on springs, or axial moments of inertia that turn with
-        it. Masses, lengths, centroids and radii of gyration equal those of the model to the last digit.
+        By mass; a `Rig` if the model has a support on an arm, a spring or a trolley, springs or dashpots at pins, or axial
+        moments of inertia that turn with the support. All numbers equal those of the model to the last digit.
 
     Raises
     ------
     ValueError
-        If the model is not a serial chain of straight links hung by hinges or ball joints without friction; the message
-        names the body or joint and says why.
+        If the model is not a serial chain of straight links hung by hinges or ball joints without dry friction, or a
+        spring is not relaxed in the straight chain; the message names the body or joint and says why.
     ImportError
         If mujoco is not installed; the message says how to install it.
     OSError
@@ -67,8 +68,15 @@ def from_mjcf(source: str | os.PathLike[str]) -> Chain | Rig:
     The lower pin of a link is where the next body is hinged. The free end of the lowest link is its only site, the
     position of a massless body fixed to it, or else the far end of its geoms. A hinge about the vertical above all
     links is a turntable that keeps its speed. Links without a turntable, or on ball joints, do not spin about their own
-    axes: their moments of inertia about these axes have no effect and are left out. Contacts, keyframes and gravity are
-    not read.
+    axes: their moments of inertia about these axes have no effect and are left out.
+
+    A body on two level slides at right angles above all links is the carriage of a `Support`, with the stiffness and
+    damping of the slides; without stiffness it is a trolley. In a model that moves in one plane it has one slide. Stiffness
+    and damping of the joints at a pin, equal in both its hinges, are springs and dashpots of a `Pin`. A link stands
+    (is `inverted`) where a spring at its pin holds it so.
+
+    Contacts, keyframes and gravity are not read, nor are motors, which do nothing without a signal, and the ends of the
+    rails of a carriage.
 
     Examples
     --------
@@ -142,7 +150,7 @@ def _system(function: str, source: Any, root: str, least: float) -> Chain | Rig:
 
 
 class _Link(NamedTuple):
-    """A body between two pins; `way` says how it can turn about the upper one."""
+    """A body between two pins; `way` says how it can turn about the upper one, `axis` where it points in space."""
 
     name: str
     mass: float
@@ -151,10 +159,14 @@ class _Link(NamedTuple):
     radius_of_gyration: float
     axial: float
     way: str
+    axis: Floats
+    stiffness: float
+    damping: float
+    inverted: bool
 
 
 class _Model:
-    """A model that MuJoCo has compiled, in its pose at rest, read as links hung one from another.
+    """A model that MuJoCo has compiled, in its pose at rest with relaxed springs, read as links hung one from another.
 
     Anything else is refused with the reason. Masses and moments of inertia up to `least` count as 0.
     """
@@ -166,6 +178,10 @@ class _Model:
         self.turn: int | None = None  # the joint of the turntable
         self._refuse_wild()
         self.at = mujoco.MjData(model)
+        for joint in np.flatnonzero(model.jnt_stiffness):
+            here = int(model.jnt_qposadr[joint])
+            its = slice(here, here + 4 if model.jnt_type[joint] == self.ball else here + 1)
+            self.at.qpos[its] = model.qpos_spring[its]
         mujoco.mj_kinematics(model, self.at)
         size = float(np.linalg.norm(model.opt.gravity))
         self.children: list[list[int]] = [[] for _ in range(model.nbody)]
@@ -181,6 +197,7 @@ class _Model:
         for name, what in _MORE.items():
             if getattr(self.model, name):
                 self._refuse(f"the model has {what}, which a chain does not have; take them away")
+        self._refuse_servos()
         if self.model.body_gravcomp.any():
             self._refuse("gravity does not act on all bodies (gravcomp); set gravcomp to 0")
         if self.model.opt.density or self.model.opt.viscosity:
@@ -190,19 +207,31 @@ class _Model:
         if self.model.jnt_type[first] == self.hinge and abs(self.at.xaxis[first] @ self.up) > 1 - 1e-12:
             self.turn = first  # it turns all that hangs about the vertical
         bodies = bodies if self._joints(bodies[0]) else bodies[1:]
-        given = self._spring(bodies[0]) if bodies else {}
+        given = self._carriage(bodies[0]) if bodies else {}
+        slides = self._joints(bodies[0]) if given else []
         bodies = bodies[1:] if given else bodies
         if not bodies:
             self._refuse("no link hangs from the support")
         links = self._links(bodies)
+        if len(slides) == 1:
+            hinge = self.at.xaxis[self._joints(bodies[0])[0]]
+            if links[0].way != "one hinge" or abs(hinge @ self.at.xaxis[slides[0]]) > _NEAR:
+                self._refuse(
+                    f"{self._name('joint', slides[0])} is the only slide, but the links do not move in its plane alone; "
+                    "give the carriage a second slide across it"
+                )
         if self.turn is not None:
             arm = self.at.xanchor[self._joints(bodies[0])[0]] - self.at.xanchor[self.turn]
             given["radius"] = float(np.linalg.norm(arm - (arm @ self.up) * self.up))
-        axial = np.array([link.axial for link in reversed(links)])
-        chain = _chain(links[::-1], self._numeric(RATIO))
-        if not any(given.values()) and not axial.any():
+        links.reverse()
+        axial = np.array([link.axial for link in links])
+        chain, support = _chain(links, self._numeric(RATIO)), Support(**given)
+        pins = Pin(stiffness=[link.stiffness for link in links], damping=[link.damping for link in links])
+        if support == Support() and pins == Pin() and not axial.any():
             return chain
-        return Rig(chain, support=Support(**given), flywheels=Flywheel(axial_moment=axial) if axial.any() else None)
+        wheels = Flywheel(axial_moment=axial) if axial.any() else None
+        inverted = [link.inverted for link in links]
+        return Rig(chain, support=support, flywheels=wheels, pins=pins, inverted=inverted)
 
     def _numeric(self, name: str) -> Floats:
         """The custom numbers of the file with a name; empty where there are none."""
@@ -217,8 +246,14 @@ class _Model:
                 values = getattr(self.model, f"{kind}_{field}")
                 wild = np.argwhere(~(np.abs(values) <= _MOST))
                 if wild.size:
-                    name = self._name("joint" if kind == "jnt" else kind, int(wild[0, 0]))
+                    number = int(wild[0, 0])
+                    if kind == "dof":
+                        number = int(self.model.dof_jntid[number])
+                    name = self._name("joint" if kind in ("jnt", "dof") else kind, number)
                     self._refuse(f"{name}: {field} must be finite and at most {_MOST:g}, got {values[tuple(wild[0])]:g}")
+        for field, values in (("ref", self.model.qpos0), ("springref", self.model.qpos_spring)):
+            if not (np.abs(values) <= _MOST).all():
+                self._refuse(f"{field} of all joints must be finite and at most {_MOST:g}, got {values}")
         if not (np.abs(self.model.opt.gravity) <= _MOST).all():
             self._refuse(f"gravity must be finite and at most {_MOST:g}, got {self.model.opt.gravity}")
 
@@ -264,46 +299,77 @@ class _Model:
             self._refuse("the model has no joints; a URDF file needs a root link of the name world")
         return bodies
 
-    def _spring(self, body: int) -> dict[str, float]:
-        """Stiffness and mass of a carriage on two horizontal springs; empty where there is none."""
+    def _refuse_servos(self) -> None:
+        """Refuse actuators that act without a signal."""
+        model = self.model
+        for what in ("biastype", "damping", "dampingpoly", "armature"):
+            acts = np.argwhere(getattr(model, f"actuator_{what}", np.zeros(0)))  # some are not in all versions
+            if acts.size:
+                name = self._name("actuator", int(acts[0, 0]))
+                self._refuse(f"{name} acts without a signal, and a chain has no motors; take it away")
+        low, high = model.actuator_ctrlrange.T
+        if np.any(model.actuator_ctrllimited & ~((low <= 0) & (high >= 0))):
+            self._refuse("an actuator acts without a signal, as its ctrlrange does not contain 0; take it away")
+
+    def _carriage(self, body: int) -> dict[str, Any]:
+        """What a `Support` has of a body that slides; empty where there is none."""
         model, joints = self.model, self._joints(body)
         if not joints or any(model.jnt_type[j] != self.slide for j in joints):
             return {}
-        axes, stiffness = self.at.xaxis[joints], np.ravel(model.jnt_stiffness[joints])
-        level = len(joints) == 2 and np.abs([axes[0] @ axes[1], *(axes @ self.up)]).max() < _NEAR
-        if not level or stiffness[0] != stiffness[1] or not stiffness[0] > 0:
-            self._refuse(f"{self._name('body', body)} slides, but not on two equal springs at right angles and level")
+        name, axes = self._name("body", body), self.at.xaxis[joints]
+        across = abs(axes[0] @ axes[1]) < _NEAR if len(joints) == 2 else len(joints) == 1 and self.turn is None
+        if not across or np.abs(axes @ self.up).max() > _NEAR:
+            instead = "not on two level joints at right angles, nor on one in a plane model without a turntable"
+            self._refuse(f"{name} slides, but {instead}")
+        stiffness, damping = self._held(joints, name)
         for j in joints:
-            self._refuse_forces(j, but="stiffness")
-            if model.qpos_spring[model.jnt_qposadr[j]] != model.qpos0[model.jnt_qposadr[j]]:
+            if stiffness and model.qpos_spring[model.jnt_qposadr[j]] != model.qpos0[model.jnt_qposadr[j]]:
                 self._refuse(
                     f"{self._name('joint', j)} has a spring that is not at rest (springref); set springref to 0"
                 )
         mass = float(model.body_mass[body])
-        return {"stiffness": float(stiffness[0]), "mass": mass if mass > self.least else 0.0}
+        mass = mass if mass > self.least else 0.0
+        return {"stiffness": stiffness or (None if mass else 0.0), "damping": damping, "mass": mass}
 
-    def _refuse_forces(self, joint: int, but: str = "") -> None:
-        """Refuse springs, friction and limits of a joint."""
+    def _held(self, joints: list[int], name: str) -> tuple[float, float]:
+        """Stiffness and damping of a pin or carriage, which are those of all its joints; refuses other forces."""
+        found = []
+        for what, values in (("stiffness", self.model.jnt_stiffness), ("damping", self.model.dof_damping)):
+            each = [float(np.ravel(values[j if what == "stiffness" else self.model.jnt_dofadr[j]])[0]) for j in joints]
+            for joint, value in zip(joints, each, strict=True):
+                if value < 0:
+                    self._refuse(f"{self._name('joint', joint)} has a negative {what}, {value:g}; give 0 or more")
+                if value != each[0]:
+                    self._refuse(f"the joints of {name} have {what} {each[0]:g} and {value:g}; give both the same")
+            found.append(each[0])
+        for joint in joints:
+            self._refuse_forces(joint)
+        return found[0], found[1]
+
+    def _refuse_forces(self, joint: int) -> None:
+        """Refuse dry friction, limits and what else of a joint is not read; a rail may have ends."""
         model, dof = self.model, self.model.jnt_dofadr[joint]
         for field in _FORCES:
-            name = field.partition("_")[2]
             values = getattr(model, field, None)  # some are not in all versions
             here = 0.0 if values is None else np.max(np.abs(values[joint if field.startswith("jnt") else dof]))
-            if here and name != but:
-                self._refuse(f"{self._name('joint', joint)} has {name} {here:g}; set it to 0")
-        if model.jnt_limited[joint]:
+            if here:
+                self._refuse(f"{self._name('joint', joint)} has {field.partition('_')[2]} {here:g}; set it to 0")
+        low, high = model.jnt_range[joint]
+        within = model.jnt_type[joint] == self.slide and low < model.qpos0[model.jnt_qposadr[joint]] < high
+        if model.jnt_limited[joint] and not within:
             self._refuse(f"{self._name('joint', joint)} has a range; take it away")
 
     def _links(self, bodies: list[int]) -> list[_Link]:
         """The links that the bodies are, from the support down."""
-        links, joints = [], []
+        links: list[_Link] = []
+        joints: list[int] = []
         for body, after in zip(bodies, [*bodies[1:], None], strict=True):
             joints += self._joints(body)
             pin = self._pin(body)
             end = self._free_end(body, pin) if after is None else self._in_parent(after)
             along = end - pin
             if np.linalg.norm(along) > _NEAR * np.abs(self.model.body_pos).max(initial=0.0):
-                links.append(self._link(body, joints, pin, along))
+                links.append(self._link(body, joints, pin, along, links[-1] if links else None))
                 joints = []
             elif self.model.body_mass[body] > self.least:
                 self._refuse(f"{self._name('body', body)} has mass but no length: the next joint is at its own")
@@ -322,7 +388,6 @@ class _Model:
         for j in joints:
             if self.model.jnt_type[j] not in (self.hinge, self.ball):
                 self._refuse(f"{self._name('joint', j)} is neither a hinge nor a ball joint")
-            self._refuse_forces(j)
             if np.any(self.model.jnt_pos[j] != self.model.jnt_pos[joints[0]]):
                 self._refuse(
                     f"the joints of {self._name('body', body)} are at different places; a link has one upper pin"
@@ -361,7 +426,7 @@ class _Model:
         half = self._matrix(model.geom_quat[geom])[:, 2] * (model.geom_size[geom][1] if is_long else 0.0)
         return [model.geom_pos[geom] + half, model.geom_pos[geom] - half]
 
-    def _link(self, body: int, joints: list[int], pin: Floats, along: Floats) -> _Link:
+    def _link(self, body: int, joints: list[int], pin: Floats, along: Floats, above: _Link | None) -> _Link:
         model, name = self.model, self._name("body", body)
         length = float(np.linalg.norm(along))
         axis = along / length
@@ -369,14 +434,31 @@ class _Model:
         centroid, mass = float(centre @ axis), float(model.body_mass[body])
         if np.linalg.norm(centre - centroid * axis) > _NEAR * length and mass > self.least:
             self._refuse(f"the centre of gravity of {name} is not on the line between its pins")
-        way, hinge = self._way(joints, self._matrix(self.at.xquat[body]) @ axis, name)
+        turned = self._matrix(self.at.xquat[body]) @ axis
+        way, hinge = self._way(joints, turned, name)
         across, axial = self._moments(body, axis, hinge, name)
         is_ball = abs(axial - self.least) < _NEAR * self.least  # what to_mjcf and to_urdf add about all axes
         mass = mass if mass > self.least else 0.0
         radius = radius_of_gyration(across, mass, self.least if is_ball else 0.0)
         if self.turn is None or way == "ball" or not mass or is_ball or axial <= max(self.least, _NEAR * across):
             axial = 0.0  # of no effect
-        return _Link(model.body(body).name, mass, length, centroid, radius, axial, way)
+        pin_has, inverted = self._held(joints, name), False
+        if any(pin_has) and len(joints) > 1 and (way == "ball" or abs(np.dot(*self.at.xaxis[joints])) > _NEAR):
+            self._refuse(f"springs and dashpots at the pin of {name} need one hinge, two at right angles or a ball joint")
+        if pin_has[0]:
+            inverted = self._stands(turned, above, self._name("joint", joints[0]))
+        return _Link(model.body(body).name, mass, length, centroid, radius, axial, way, turned, *pin_has, inverted)
+
+    def _stands(self, axis: Floats, above: _Link | None, joint: str) -> bool:
+        """Whether a link stands if the springs at its pin are relaxed in this direction."""
+        over, what = (-self.up, "the vertical") if above is None else (above.axis, "the link above")
+        cosine, sine = float(axis @ over), float(np.linalg.norm(np.cross(axis, over)))
+        if sine > _NEAR:
+            self._refuse(
+                f"{joint} has a spring that is relaxed {math.degrees(math.atan2(sine, cosine)):.6g} degrees from {what}; "
+                "set springref to where the chain is straight"
+            )
+        return (above is not None and above.inverted) != (cosine < 0)
 
     def _way(self, joints: list[int], axis: Floats, name: str) -> tuple[str, Floats | None]:
         """How a link with this axis in space turns about its pin, and the direction of its hinge if it has only one."""

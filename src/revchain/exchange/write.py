@@ -24,7 +24,7 @@ LEAST_OF_URDF = 2e-14
 RATIO = "gyration_ratio"
 """Name of the numbers that hold more digits of the radii of gyration than MuJoCo's moments of inertia have."""
 _STEPS = 1000  # of time in a turn
-_STEPS_OF_LINK = 50  # in an oscillation of the lightest link under the greatest tension
+_STEPS_OF_LINK = 50  # in an oscillation of the lightest link under the greatest tension and the stiffest springs
 
 
 def to_mjcf(
@@ -51,7 +51,8 @@ def to_mjcf(
     Returns
     -------
     str
-        The model as XML, with all digits. Masses are in kg: weights divided by gravity.
+        The model as XML, with all digits. Masses are in kg: weights divided by gravity. Springs and dashpots are in N/m,
+        N m/rad, N s/m and N m s/rad, as those of the system with its masses in kg or its weights in N.
 
     Raises
     ------
@@ -66,8 +67,13 @@ def to_mjcf(
     -----
     A ``turntable`` turns about the vertical and carries the upper pin. Each link has two hinges there: ``inclination``, in
     the turning plane, and ``sideways``, out of it. In steady motion only the turntable and the wheels turn. A turntable
-    on the axis exerts no torque on the chain. One with an arm has a moment of inertia large enough to keep its speed to
-    12 digits. A link with a flywheel has a wheel with half of its mass, which carries the same angular momentum.
+    on the axis exerts no torque on the chain. One with an arm, or of a system with dashpots, has a moment of inertia large
+    enough to keep its speed to 12 digits, or to stand still. A link with a flywheel has a wheel with half of its mass,
+    which carries the same angular momentum.
+
+    A support on a spring, or a trolley, is a ``carriage`` on two slides, ``carriage_x`` and ``carriage_y``, with the
+    support's stiffness and damping. Springs and dashpots at a pin are the stiffness and damping of both its hinges. The
+    springs are relaxed where the chain hangs straight, or with its inverted links upright.
 
     MuJoCo accepts no moment of inertia below 1e-15 kg m^2. This amount is added to each link about all axes, as for a
     small ball. Steady motion is unchanged; disturbed motion changes by the ratio of this amount to the moment of
@@ -118,14 +124,14 @@ def to_urdf(
     Raises
     ------
     ValueError
-        As for `to_mjcf`; also for a support on a spring or flywheels, which URDF cannot describe.
+        As for `to_mjcf`; also for flywheels, springs and trolleys: URDF has no springs and no velocities.
     TypeError
         If `system` is of another class.
 
     Notes
     -----
-    The joints are those of `to_mjcf`. A URDF joint has one axis, so a link of negligible mass, 2e-14 kg, is placed
-    between the two axes of each pin.
+    The joints are those of `to_mjcf`, with its dashpots at pins. A URDF joint has one axis, so a link of negligible mass,
+    2e-14 kg, is placed between the two axes of each pin.
 
     Examples
     --------
@@ -140,8 +146,9 @@ def to_urdf(
             f"{function}: a URDF file has one configuration; give one shape, such as shapes[0], got {shown(system)}"
         )
     made, [state] = mechanism(function, system, gravity)
-    if made.yields:
-        raise ValueError(f"{function}: URDF has no springs; use to_mjcf, got a support of stiffness {made.stiffness:g}")
+    if made.yields or made.pin_stiffness.any():
+        got = f"a support of stiffness {made.stiffness:g}" if made.yields else "springs at pins"
+        raise ValueError(f"{function}: URDF has no springs, and trolleys are not written; use to_mjcf, got {got}")
     if made.wheeled.any():
         raise ValueError(f"{function}: URDF has no velocities, which wheels need; use to_mjcf, got flywheels")
     return _written(function, _robot(made, state.joint_angle), path)
@@ -174,9 +181,13 @@ def _ball(made: Mechanism, k: int) -> float:
 
 
 def _step(made: Mechanism, state: State) -> float:
-    """A time step that resolves a turn and the fastest oscillation of a link."""
-    light = made.mass[made.mass > 0].min() * made.length.min()
-    step = math.pi / _STEPS_OF_LINK * math.sqrt(light / state.tension.max())
+    """A time step that resolves a turn and the fastest oscillation and decay of a link."""
+    short = float(made.length.min())
+    light = float(made.mass[made.mass > 0].min()) * short
+    held, rubbed = (4 * float(values.max()) / short for values in (made.pin_stiffness, made.pin_damping))
+    pull = float(state.tension.max()) + held + (made.stiffness * short if made.yields else 0.0)
+    rub = rubbed + made.damping * short
+    step = math.pi / _STEPS_OF_LINK / (math.sqrt(pull / light) + rub / light)
     turn = math.tau / abs(state.speed) if state.speed else math.inf
     return min(step, turn / _STEPS)
 
@@ -195,14 +206,14 @@ def _mujoco(made: Mechanism, step: float) -> Xml.Element:
     world = _add(root, "worldbody")
     _add(world, "light", directional="true", pos=(0, 0, size), dir=(0.3, 0.5, -1))
     at = _body(world, "turntable", (0, 0, 0), LEAST, (0, 0, 0), (made.turning,) * 3)
-    _hinge(at, "turn", (0, 0, 1))
+    _joint(at, "turn", (0, 0, 1))
     pin: Any = (made.radius, 0, 0)
     if made.radius:
         _rod(at, pin, size)
     if made.yields:
         at, pin = _body(at, "carriage", pin, max(made.carriage, LEAST), (0, 0, 0), (LEAST,) * 3), (0, 0, 0)
         for name, axis in (("carriage_x", (1, 0, 0)), ("carriage_y", (0, 1, 0))):
-            _add(at, "joint", name=name, type="slide", axis=axis, stiffness=made.stiffness)
+            _joint(at, name, axis, "slide", stiffness=made.stiffness, damping=made.damping)
     for k in reversed(range(made.size)):
         at, pin = _link(at, made, k, pin), (0, 0, -made.length[k])
     _add(at, "site", name="free_end", pos=pin, size=size / 150)
@@ -215,15 +226,16 @@ def _link(parent: Xml.Element, made: Mechanism, k: int, pin: Any) -> Xml.Element
     mass, half, at = made.mass[k] / (1 + wheel), made.moment[k] / 2, (0, 0, -made.centroid[k])
     across = half + LEAST if wheel else made.across(k, LEAST)
     link = _body(parent, name, pin, max(mass, LEAST), at, (across, across, LEAST))
-    _hinge(link, f"{name}_inclination", (0, -1, 0))
-    _hinge(link, f"{name}_sideways", (1, 0, 0))
+    at_pin = {"stiffness": made.pin_stiffness[k], "damping": made.pin_damping[k]}
+    _joint(link, f"{name}_inclination", (0, -1, 0), **at_pin, springref=made.rest[k] if made.pin_stiffness[k] else 0.0)
+    _joint(link, f"{name}_sideways", (1, 0, 0), **at_pin)
     _rod(link, (0, 0, -made.length[k]), made.reach)
     ball = _ball(made, k)
     if ball:
         _add(link, "geom", type="sphere", pos=at, size=ball, mass=0)
     if wheel:
         disc = _body(link, made.part(k, "wheel"), at, mass, (0, 0, 0), (half, half, made.moment[k]))
-        _hinge(disc, f"{name}_spin", (0, 0, 1))
+        _joint(disc, f"{name}_spin", (0, 0, 1))
         _add(disc, "geom", type="cylinder", size=(2 * ball, ball / 3), mass=0)
     return link
 
@@ -234,8 +246,9 @@ def _body(parent: Xml.Element, name: str, pin: Any, mass: float, at: Any, moment
     return body
 
 
-def _hinge(body: Xml.Element, name: str, axis: tuple[int, int, int]) -> None:
-    _add(body, "joint", name=name, type="hinge", axis=axis)
+def _joint(body: Xml.Element, name: str, axis: tuple[int, int, int], kind: str = "hinge", **forces: float) -> None:
+    """A joint with those of its forces that are not 0."""
+    _add(body, "joint", name=name, type=kind, axis=axis, **{what: value for what, value in forces.items() if value})
 
 
 def _rod(body: Xml.Element, end: Any, size: float) -> None:
@@ -263,9 +276,10 @@ def _robot(made: Mechanism, angle: Any) -> Xml.Element:
     parent, pin = "turntable", (made.radius, 0.0, 0.0)
     for k in reversed(range(made.size)):
         name, between, across = made.names[k], made.part(k, "pin"), made.across(k, LEAST_OF_URDF)
-        _turning(root, f"{name}_inclination", (parent, between), pin, -angle[k], (0, -1, 0))
+        damping = made.pin_damping[k]
+        _turning(root, f"{name}_inclination", (parent, between), pin, -angle[k], (0, -1, 0), damping)
         _part(root, between, LEAST_OF_URDF, 0.0, (LEAST_OF_URDF,) * 3)
-        _turning(root, f"{name}_sideways", (between, name), (0, 0, 0), 0.0, (1, 0, 0))
+        _turning(root, f"{name}_sideways", (between, name), (0, 0, 0), 0.0, (1, 0, 0), damping)
         moments = (across, across, LEAST_OF_URDF)
         link = _part(root, name, max(made.mass[k], LEAST_OF_URDF), made.centroid[k], moments)
         _seen(link, -made.length[k] / 2, "cylinder", radius=made.reach / 300, length=made.length[k])
@@ -277,7 +291,9 @@ def _robot(made: Mechanism, angle: Any) -> Xml.Element:
     return root
 
 
-def _turning(root: Xml.Element, name: str, between: tuple[str, str], pin: Any, pitch: float, axis: Any) -> None:
+def _turning(
+    root: Xml.Element, name: str, between: tuple[str, str], pin: Any, pitch: float, axis: Any, damping: float = 0.0
+) -> None:
     """A joint of a robot between two links; fixed without an axis."""
     joint = _add(root, "joint", name=name, type="fixed" if axis is None else "continuous")
     _add(joint, "parent", link=between[0])
@@ -285,6 +301,8 @@ def _turning(root: Xml.Element, name: str, between: tuple[str, str], pin: Any, p
     _add(joint, "origin", xyz=pin, rpy=(0, pitch, 0))
     if axis is not None:
         _add(joint, "axis", xyz=axis)
+    if damping:
+        _add(joint, "dynamics", damping=damping)
 
 
 def _part(root: Xml.Element, name: str, mass: float, centroid: float, moments: tuple[float, ...]) -> Xml.Element:

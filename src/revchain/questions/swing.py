@@ -143,7 +143,7 @@ def swing(
     ...     braking = rc.SupportMotion([0.0, seconds], velocity=[2.0, 0.0])
     ...     print(round(rc.swing(crane, seconds, support=braking).residual_sway, 4))
     0.0
-    1.2862
+    1.2857
     """
     refuse_other(_CALLER, system, ("chain", "rig", "cord"), {"held": "use its modes"})
     times = floats(_CALLER, "time", time)

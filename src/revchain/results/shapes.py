@@ -372,8 +372,8 @@ class SteadyShape(Result, Moving, row="link", title="Steady shape of {_waves}{_a
         Stability
             The stability. Accuracy: 1e-13 of the largest exponent for simple ones; with masses up to 1e16 apart 2e-13,
             on arms and springs 5e-9. `exponent_error` estimates the error of each, and a verdict within it is
-            ``undecided``. The exponents are without damping; `Stability.internal_damping` and
-            `Stability.external_damping` give the effect of a little of it. Cost: ``(4 N)**3 / 2`` operations: half a
+            ``undecided``. Dashpots at the pins of a `Rig` (`Pin`) damp the exponents; `Stability.internal_damping` and
+            `Stability.external_damping` give the effect of a little more at the pins and of drag. Cost: ``(4 N)**3 / 2`` operations: half a
             millisecond for twenty links, a tenth of a second for a hundred. Where double precision loses digits, twice
             the digits are used, up to 25 links in the free frame: a hundred times as long. For cords see
             `Stability.exponents`; the verdict is ``undecided`` if two discretisations differ in more than the growth
@@ -383,7 +383,8 @@ class SteadyShape(Result, Moving, row="link", title="Steady shape of {_waves}{_a
         ------
         ValueError
             If `frame` is another word; if a motion moves no mass (a movable pin of a held chain without mass, but for
-            an upper end on a spring), or a flywheel acts on a support that yields and has no mass.
+            an upper end on a spring), or a flywheel or a dashpot acts on a support that yields and has no mass; if, in the
+            free frame of a support on the axis, a rig has dashpots and driven wheels.
 
         Notes
         -----
@@ -411,6 +412,9 @@ class SteadyShape(Result, Moving, row="link", title="Steady shape of {_waves}{_a
         ['minimum', 'unstable', 'spectrally stable']
         >>> bool(chair[2].internal_damping.max() > 0)
         True
+        >>> rubbing = rc.Rig(carousel.chain, support=carousel.support, pins=rc.Pin(damping=20.0))
+        >>> [shape.stability().verdict for shape in rc.steady_shapes(rubbing, angular_speed=3.0)]
+        ['minimum', 'unstable', 'unstable']
 
         Cords, hanging and held:
 

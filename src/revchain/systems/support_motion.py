@@ -51,10 +51,10 @@ class SupportMotion(_Fitting):
     >>> crane = rc.Chain(mass=1.0, length=2.0)
     >>> found = rc.swing(crane, [1.5, 3.0], support=braking, gravity=9.81)
     >>> found.offset.round(4)
-    array([[0.8136, 0.6   ],
-           [0.3908, 0.6   ]])
+    array([[0.8157, 0.6   ],
+           [0.3913, 0.6   ]])
     >>> round(found.residual_sway, 4)
-    0.2349
+    0.2166
     """
 
     __slots__ = ()

@@ -242,9 +242,9 @@ def turning(e, across, swivels):
     return given, left.reshape(3 * size, -1), up
 
 
-def small_motions(rig, shape, frame="free"):
+def small_motions(rig, shape, frame="free", dashpots=None):
     """M, G, K of small motions about a shape, M a'' + G a' + K a = 0, from second differences of Lagrange's function in
-    60 digits; friction at pins of 1 N m s; drag of 1 N s/m^2 as D a' + N a. Coordinates: inclinations in the plane, those
+    60 digits; friction at pins of 1 N m s, or of a number for the upper pin of each link; drag of 1 N s/m^2 as D a' + N a. Coordinates: inclinations in the plane, those
     out of it, then the support's offsets if it yields. In the free frame links keep what turns about their own axes; in
     the driven one, without motions out of the plane, they turn with it."""
     with mp.workdps(60):
@@ -345,6 +345,8 @@ def small_motions(rig, shape, frame="free"):
             relative, left, _ = turning(vectors, across, free and rig.support.radius == 0)
             left[:, :size] *= given.c == 0
             relative = relative.ravel()
+            root = np.repeat(np.sqrt(np.ones(size) if dashpots is None else dashpots), 3)
+            relative, left = relative * root, left * root[:, None]
             seen.append(relative + left @ np.linalg.lstsq(left, -relative, rcond=None)[0])
         bend = np.array(seen) @ np.array(seen).T
     return SimpleNamespace(

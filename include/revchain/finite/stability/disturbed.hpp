@@ -52,6 +52,7 @@ struct DisturbedIn {
     Matrix<S> in_plane, out_of_plane;   // both stiffnesses times lambda
     Matrix<S> turned;                   // decrease of `in_plane` if links turn with the plane
     Matrix<S> bending, swivelling;      // F, H
+    Matrix<S> damped_in_plane, damped_across;  // those of the dashpots at pins, if there are any
     Matrix<S> drag_in_plane, drag_coupling, drag_across;
     Matrix<S> ends;               // how the lower end moves with q, across the axis and along it
     Vector<S> lower_end;          // how it moves with b
@@ -60,6 +61,8 @@ struct DisturbedIn {
     std::vector<Index> massless;  // pins without mass, lowest first
     double doubt = 0;             // the largest error of a stiffness over that of rounding
     bool turns_freely = true;
+
+    bool is_damped() const { return damped_in_plane.size() != 0; }
 
     DisturbedIn() = default;
     explicit DisturbedIn(const PulledLinks& shape) : turns_freely(shape.turns_freely) {
@@ -127,12 +130,15 @@ struct DisturbedIn {
         drag_coupling = spread(x, length, y), drag_across = spread(y, length, y);
         ends.resize(pins, 2), lower_end = y;
         ends << x, z;
-        bending = Matrix<S>::Zero(pins, pins);
-        for (Index m = 0; m < n; ++m) {
-            bending(m, m) = S(m == 0 && !shape.held ? 1 : 2) * unit[m] * unit[m];
-            if (m > 0) bending(m, m - 1) = bending(m - 1, m) = -unit[m] * unit[m - 1];
+        const std::vector<double> one(static_cast<std::size_t>(n + shape.held), 1.0);
+        bending = spread(unit, bent(shape, pins, one).template cast<S>(), unit);
+        swivelling = spread(unit, swivelled(shape, pins, one).template cast<S>(), unit);
+        if (!shape.damping.empty()) {  // of a rig, the lower end of which is free
+            damped_in_plane =
+                spread(unit, bent(shape, pins, shape.damping).template cast<S>(), unit);
+            damped_across =
+                spread(unit, swivelled(shape, pins, shape.damping).template cast<S>(), unit);
         }
-        swivelling = spread(unit, swivelled(shape, pins).template cast<S>(), unit);
         for (Index m = 0; m < pins; ++m) {
             const bool lowest = m == 0 && shape.lower_yields() && shape.lower_carriage > 0;
             const bool lower = m < n && !(is_zero(link(m).moment) && is_zero(link(m).cross));
@@ -146,6 +152,9 @@ struct DisturbedIn {
     void keep(const Matrix<S>& Q, const Matrix<S>& Y) {
         for (Matrix<S>* of : {&inertia, &in_plane, &turned, &bending, &drag_in_plane})
             *of = congruent(*of, Q);
+        if (is_damped())
+            damped_in_plane = congruent(damped_in_plane, Q),
+            damped_across = congruent(damped_across, Y);
         for (Matrix<S>* of : {&coupling, &drag_coupling})
             *of = pencil::transposed_product(Q, pencil::product(*of, Y));
         for (Matrix<S>* of : {&mass, &out_of_plane, &swivelling, &drag_across})
@@ -174,11 +183,28 @@ struct DisturbedIn {
     }
 
    private:
-    /// Returns twice the dissipation of unit damping at the pins by angles b. A link turns across
+    /// Returns twice the dissipation by angles q of dashpots at the joints, lowest first.
+    static Matrix<double> bent(const PulledLinks& shape, Index pins,
+                               const std::vector<double>& damping) {
+        const auto n = static_cast<Index>(shape.links.size());
+        Matrix<double> result = Matrix<double>::Zero(pins, pins);
+        const auto add = [&](Index joint, Index below, Index above) {
+            const double c = damping[static_cast<std::size_t>(joint)];
+            for (const Index m : {below, above})
+                if (m >= 0 && m < n) result(m, m) += c;
+            if (below < 0 || above >= n) return;
+            result(below, above) -= c, result(above, below) -= c;
+        };
+        if (shape.held) add(0, -1, 0);
+        for (Index m = 0; m < n; ++m) add(m + shape.held, m, m + 1);
+        return result;
+    }
+    /// Returns twice the dissipation by angles b of dashpots at the joints. A link turns across
     /// itself at the rate b. Without a moment of inertia about itself it also turns so that it
     /// dissipates least. So does a support without torque about the axis. A rotation dissipates
     /// nothing.
-    static Matrix<double> swivelled(const PulledLinks& shape, Index pins) {
+    static Matrix<double> swivelled(const PulledLinks& shape, Index pins,
+                                    const std::vector<double>& damping) {
         const auto n = static_cast<Index>(shape.links.size());
         const Index joints = n + shape.held;
         Matrix<double> given = Matrix<double>::Zero(2 * joints, pins),
@@ -198,6 +224,10 @@ struct DisturbedIn {
         }
         if (shape.turns_freely) left(2 * joints - 1, n) = 1;
         if (shape.turns_freely && shape.held) left(1, n + 1) = 1;
+        for (Index joint = 0; joint < joints; ++joint) {
+            const double root = std::sqrt(damping[static_cast<std::size_t>(joint)]);
+            given.middleRows(2 * joint, 2) *= root, left.middleRows(2 * joint, 2) *= root;
+        }
         const Eigen::ColPivHouseholderQR<Matrix<double>> factor(left);
         const Matrix<double> seen = factor.householderQ().transpose() * given;
         const auto rest = seen.bottomRows(seen.rows() - factor.rank());

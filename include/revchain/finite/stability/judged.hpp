@@ -7,23 +7,13 @@
 
 #include "revchain/finite/held/shape.hpp"
 #include "revchain/finite/shapes/rigged_links.hpp"
-#include "revchain/finite/stability/disturbed.hpp"
-#include "revchain/finite/stability/forms.hpp"
+#include "revchain/finite/stability/damped.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/rig.hpp"
 #include "revchain/stability.hpp"
 #include "revchain/steady_shapes.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
-
-/// A verdict, and whether an exponent lost digits. It lost digits if its estimated error is above
-/// 5e-11 of the largest exponent, or 5e-9 near 1, and in proportion more beyond 16 unknowns. The
-/// estimate is usually about 1000 times the error. For almost equal motions, as of a light link in
-/// and out of the plane, it is up to 40 times less (tests/python/test_light_links.py).
-struct Judgement {
-    Stability stability;
-    bool is_spoilt = false;
-};
 
 /// Returns the verdict from squares of exponents and their errors. A square farther from the
 /// negative numbers than its error is unstable. A negative square separated from all others stays
@@ -52,27 +42,8 @@ Verdict verdict_by(const std::vector<std::complex<double>>& square,
 template <class S>
 std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d,
                                    const ChainUnits& units) {
-    using std::sqrt;
-    const bool free = frame == StabilityFrame::free, rotates = free && d.turns_freely;
-    const Index n = d.in_plane.rows();
-    Matrix<S> in_plane = d.in_plane,
-              others = Matrix<S>::Identity(d.offset.size(), free ? d.offset.size() : 0);
-    Vector<S> b = Vector<S>::Zero(n);
-    S turning(1);
-    Matrix<S> beside_shape = others;
-    if (rotates) {
-        const Vector<S> momentum = d.mass * d.offset;
-        others = complement(Matrix<S>(momentum));  // orthogonal to the rotation in the masses
-        beside_shape = complement(Matrix<S>(d.offset));
-        turning = sqrt(S(d.offset.dot(momentum)));
-        b = d.coupling * d.offset / turning;
-        in_plane += pencil::product<S>(S(4) * b, b.transpose());
-    } else if (!free) {
-        in_plane -= d.turned;
-    }
-    const pencil::GyroscopicPencil<S> forms{d.inertia, pencil::product(d.coupling, others),
-                                            congruent(d.mass, others), in_plane,
-                                            congruent(d.out_of_plane, others)};
+    const Framed<S> framed(frame, d);
+    const pencil::GyroscopicPencil<S>& forms = framed.forms;
     const auto found = pencil::gyroscopic_modes(forms);
     if (!found) return std::nullopt;
     const pencil::GyroscopicModes<S>& modes = *found;
@@ -83,12 +54,7 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
     result.frame = frame;
     const double pins = std::ldexp(1.0, -units.weight_exponent - 2 * units.length_exponent),
                  air = std::ldexp(1.0, units.length_exponent - units.weight_exponent);
-    pencil::ComplexColumns<S> Y{pencil::product(others, r.real), pencil::product(others, r.imag)};
-    for (Index j = 0; rotates && j < modes.square.size(); ++j) {
-        const S twice = S(2) / turning;
-        Y.real.col(j) -= (twice * b.dot(q.real.col(j))) * d.offset;
-        Y.imag.col(j) -= (twice * b.dot(q.imag.col(j))) * d.offset;
-    }
+    const pencil::ComplexColumns<S> Y = framed.out_of_plane(q, r, d.offset);
     const auto size = [](const Matrix<S>& A) { return as_double(A.norm()); };
     const double in_A = size(forms.A), in_B = size(forms.B), in_M = size(forms.M);
     const double in_K = size(forms.K), in_C = size(forms.C),
@@ -166,18 +132,7 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
         result.internal_damping.push_back(mode.internal),
             result.external_damping.push_back(mode.external);
     }
-    const auto narrow = [](const Matrix<S>& A) {
-        return Matrix<double>(A.template cast<double>());
-    };
-    const Matrix<double> inside = narrow(in_plane),
-                         across = narrow(congruent(d.out_of_plane, beside_shape));
-    const Verdict by_squares = verdict_by(square, error, modes.is_symmetric);
-    const EnergySigns signs = energy_signs(inside, across, d.ends.rows());
-    result.negative_directions = signs.negative;
-    if (signs.is_minimum)
-        result.verdict = Verdict::minimum;
-    else if (by_squares == Verdict::unstable || signs.is_certainly_negative)
-        result.verdict = by_squares;
+    set_verdict(result, framed, d, verdict_by(square, error, modes.is_symmetric));
     return judgement;
 }
 
@@ -209,6 +164,11 @@ void require_mass(const PulledLinks& links, const Disturbed& d) {
             place,
             "a flywheel must not act on a support without mass; give it a carriage weight, now",
             0.0);
+    if (links.top_is_massless() && !links.damping.empty())
+        detail::throw_invalid(
+            place,
+            "with dashpots a support must not be without mass; give it a carriage weight, now",
+            0.0);
 }
 
 /// Returns the verdict on a shape, in double. With thorough means it is in double-double if
@@ -217,17 +177,29 @@ template <class Means>
 Stability judged(StabilityFrame frame, const PulledLinks& links, Means) {
     const Disturbed d = disturbed_in<double>(links);
     require_mass(links, d);
+    const auto axial =
+        std::find_if(links.axial.begin(), links.axial.end(), [](double each) { return each != 0; });
+    if (d.is_damped() && d.turns_freely && frame == StabilityFrame::free &&
+        axial != links.axial.end())
+        detail::throw_invalid(
+            "stability",
+            "dashpots and a driven wheel are not solved together in the free frame of a support on "
+            "the axis; give it an arm, or ask for the driven frame; link",
+            axial - links.axial.begin());
     if (d.in_plane.size() == 0) {  // two links held at both ends can only rotate
         Stability still;
         still.frame = frame, still.verdict = Verdict::minimum;
         return still;
     }
-    auto found = judged_in(frame, d, links.units);
+    const auto in = [&]<class S>(const DisturbedIn<S>& disturbed) {
+        return disturbed.is_damped() ? judged_damped_in(frame, disturbed, links.units)
+                                     : judged_in(frame, disturbed, links.units);
+    };
+    auto found = in(d);
     constexpr Index most_in_words = 100;  ///< unknowns; so many take half a second
     if constexpr (detail::is_thorough<Means>)
         if ((!found || found->is_spoilt) && d.in_plane.rows() + d.mass.rows() <= most_in_words)
-            if (auto finer = judged_in(frame, disturbed_in<DoubleDouble>(links), links.units))
-                found = std::move(finer);
+            if (auto finer = in(disturbed_in<DoubleDouble>(links))) found = std::move(finer);
     if (!found) {
         constexpr std::string_view rule =
             detail::is_thorough<Means> ? "every motion must move some mass; pins that move"
@@ -245,11 +217,11 @@ Stability judged(StabilityFrame frame, const Chain<double>& chain, const Shape& 
     return judged(frame, pulled_links(links_of(chain), shape), means);
 }
 
-/// Returns the shape of a rig as pulled links. Momentum p of a link about itself adds p/a to the
-/// pull.
+/// Returns the shape of a rig as pulled links, at a height and speed n > 0. Momentum p of a link
+/// about itself adds p/a to the pull.
 REVCHAIN_LAZY
 PulledLinks pulled_links(const Rig& rig, const RiggedLinks& given, const SteadyShape& shape,
-                         double height) {
+                         double height, double speed) {
     const auto in_lengths = [&](double x) { return std::ldexp(x, -given.units.length_exponent); };
     PulledLinks result(given.units);
     result.turns_freely = given.support.symmetric;
@@ -272,6 +244,10 @@ PulledLinks pulled_links(const Rig& rig, const RiggedLinks& given, const SteadyS
                      a = links[i].length;
         result.add(link, delta, pull[i] + about / a, doubt[i] + std::abs(about / a),
                    kept * a + about * c, about);
+        if (!rig.is_damped()) continue;
+        const double damping = std::ldexp(rig.pin(m).damping.high, -given.units.weight_exponent);
+        result.damping.resize(result.links.size());
+        result.damping.back() = height * speed * in_lengths(damping);
     }
     result.upper_offset = in_lengths(shape.offset[rig.size()]);
     return result;
@@ -316,7 +292,7 @@ Stability judged(const Rig& rig, const SteadyShape& shape, const RigStabilityOpt
     detail::require_positive(place, "gravity", options.gravity, "conical height of the shape",
                              shape.conical_height);
     require_shape_of(rig.chain(), shape);
-    detail::require_no_pins(place, "stability", rig);
+    detail::require_no_pins(place, "stability", rig, false);
     const Support& support = rig.support();
     const double end = shape.offset[rig.size()];
     if (support.is_firm() &&
@@ -326,8 +302,9 @@ Stability judged(const Rig& rig, const SteadyShape& shape, const RigStabilityOpt
         speed = sqrt(Wide<double>(options.gravity) / height);
     const bool forward = options.direction == Rotation::forward;
     const RiggedLinks given = rigged_links(rig, height, forward ? speed : -speed);
-    const PulledLinks links = pulled_links(
-        rig, given, shape, std::ldexp(shape.conical_height, -given.units.length_exponent));
+    const PulledLinks links =
+        pulled_links(rig, given, shape,
+                     std::ldexp(shape.conical_height, -given.units.length_exponent), speed.high);
     if (displaces_turning_fluid(rig)) return judged_by_energy(options.frame, Disturbed(links));
     return judged(options.frame, links, means);
 }

@@ -21,6 +21,7 @@ struct PulledLinks {
     std::vector<double> doubt;  // errors of pulls over rounding
     double upper_offset = 0;
     std::vector<double> momentum, axial;  // of flywheels: lambda n times momentum, inertia
+    std::vector<double> damping;  // lambda n times that of the dashpot at each upper pin; or empty
     double stiffness = std::numeric_limits<double>::infinity();  // lambda times that of the support
     double carriage = 0;
     double lower_stiffness = std::numeric_limits<double>::infinity();  // of a held lower end
@@ -39,15 +40,16 @@ struct PulledLinks {
     }
     bool lower_yields() const { return held && !std::isinf(lower_stiffness); }
 
-    /// Adds a link. Merges it with the last if they are in line and their pin has no mass.
+    /// Adds a link. Merges it with the last if they are in line and their pin has no mass and no
+    /// dashpot.
     void add(const Link<Fine>& link, double delta, double pulled, double off, double turning = 0,
              double about = 0) {
         if (!links.empty()) {
             Link<Fine>& below = links.back();
             const bool massless = is_zero(below.rest) && is_zero(below.cross) &&
                                   is_zero(link.moment) && is_zero(link.cross);
-            const bool plain =
-                turning == 0 && about == 0 && momentum.back() == 0 && axial.back() == 0;
+            const bool plain = turning == 0 && about == 0 && momentum.back() == 0 &&
+                               axial.back() == 0 && (damping.empty() || damping.back() == 0);
             const auto alike = [](double x, double z, double size) {
                 return std::abs(x - z) <= 1e-9 * size;
             };

@@ -176,6 +176,50 @@ TEST_CASE("what damping does: energies, drag in proportion to mass", "[finite][r
             CHECK(rate == Approx(-0.5 * 3.0 / 12.0).epsilon(1e-8));
 }
 
+TEST_CASE("one link with a dashpot at its pin: a damped oscillation in the plane", "[finite][rig][stability]") {
+    // (W l^2/g) q'' + c q' + (W l^2/g) n^2 (1 + 3 cos^2 d) q = 0: out of the plane a ball joint and a support that turns
+    // freely lose nothing.
+    const double g = revchain::conical_pendulum::standard_gravity, height = 0.9, n = std::sqrt(g / height);
+    for (const double c : {1e-6, 0.5, 3.0, 30.0}) {
+        const Rig rig(Chain<double>({plummet(2.0, 1.5)}), {.pins = {{.damping = c}}});
+        const auto found = revchain::steady_shapes(rig, {.conical_height = height});
+        const Stability s = revchain::stability(rig, found.shapes.at(0));
+        const double half = c * g / (2 * 1.5 * 1.5) / 2 / n, cosine = height / 1.5;
+        const Complex root = std::sqrt(Complex(half * half - 1 - 3 * cosine * cosine));
+        REQUIRE(s.exponents.size() == 2);
+        CHECK(s.verdict == Verdict::minimum);
+        for (const Complex& wanted : {-half + root, -half - root}) {
+            const double off = std::min(std::abs(s.exponents[0] - wanted), std::abs(s.exponents[1] - wanted));
+            CHECK(off <= 1e-14 * std::abs(half + std::abs(root)));
+        }
+    }
+}
+
+TEST_CASE("weak dashpots change exponents at the rate of `internal_damping`; they undo gyroscopic stability",
+          "[finite][rig][stability]") {
+    const double g = revchain::conical_pendulum::standard_gravity, height = 0.15, n = std::sqrt(g / height);
+    const Chain<double> chain({plummet(1.0, 1.0), plummet(2.0, 0.7), revchain::uniform_rod(1.0, 1.2)});
+    const double c = 1e-6;
+    const Rig plain(chain, {}), damped(chain, {.pins = {{.damping = c}, {.damping = c}, {.damping = c}}});
+    const auto shape = revchain::steady_shapes(plain, {.conical_height = height}).shapes.at(1);
+    const Stability before = revchain::stability(plain, shape), after = revchain::stability(damped, shape);
+    CHECK(before.verdict == Verdict::spectrally_stable);
+    CHECK(after.verdict == Verdict::unstable);
+    REQUIRE(before.exponents.size() == after.exponents.size());
+    for (std::size_t k = 0; k < before.exponents.size(); ++k) {
+        CHECK(std::abs(after.exponents[k].real() * n - before.internal_damping[k] * g * c) <= 1e-4 * std::abs(g * c));
+        CHECK(std::abs(after.internal_damping[k] - before.internal_damping[k]) <= 1e-4);
+        CHECK(std::abs(after.external_damping[k] - before.external_damping[k]) <= 1e-4);
+        CHECK(after.exponent_error[k] <= 1e-11);
+    }
+    // without mass a dashpot's pin has no acceleration of its own
+    const Chain<double> threads({plummet(1.0, 1.0), plummet(0.0, 0.5), plummet(2.0, 0.7)});
+    const Rig light(threads, {.pins = {{}, {.damping = 0.2}, {}}}), other(threads, {.pins = {{.damping = 0.2}, {}, {}}});
+    const auto found = revchain::steady_shapes(Rig(threads, {}), {.conical_height = 0.5}).shapes.at(0);
+    CHECK(revchain::stability(light, found).exponents.size() > 0);
+    CHECK_THROWS_WITH(revchain::stability(other, found), ContainsSubstring("pins must have mass"));
+}
+
 TEST_CASE("stability of rigs: refusals", "[finite][rig][stability]") {
     const Chain<double> chain({plummet(1.0, 1.0), plummet(2.0, 0.7)});
     const auto shape_of = [](const Rig& rig) {
