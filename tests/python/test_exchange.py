@@ -619,7 +619,7 @@ def test_a_turning_support_keeps_axial_moments():
         ('name="b" type="hinge"', 'name="b" type="hinge" stiffness="-3"', "joint 'b' has a negative stiffness, -3; give 0 or more"),
         ('name="b" type="hinge"', 'name="b" type="hinge" stiffness="3" springref="20"', "joint 'b' has a spring that is relaxed 20 degrees from the link above; set springref to where the chain is straight"),
         ('name="a" type="hinge"', 'name="a" type="hinge" stiffness="3" springref="20"', "joint 'a' has a spring that is relaxed 20 degrees from the vertical"),
-        ('name="a" type="hinge"', 'name="a" type="hinge" springref="nan"', "springref of all joints must be finite and at most 1e.75, got"),
+        ('name="a" type="hinge"', 'name="a" type="hinge" springref="1e80"', "springref of all joints must be finite and at most 1e.75, got"),
         ('name="a" type="hinge"', 'name="a" type="hinge" damping="1e80"', "joint 'a': damping must be finite and at most 1e.75, got 1e.80"),
         ('name="b" type="hinge"', 'name="b" type="hinge" armature="0.1"', "joint 'b' has armature 0.1; set it to 0"),
         ('name="b" type="hinge"', 'name="b" type="hinge" frictionloss="1"', "joint 'b' has frictionloss 1; set it to 0"),

@@ -333,9 +333,10 @@ class _Model:
 
     def _held(self, joints: list[int], name: str) -> tuple[float, float]:
         """Stiffness and damping of a pin or carriage, which are those of all its joints; refuses other forces."""
-        found = []
-        for what, values in (("stiffness", self.model.jnt_stiffness), ("damping", self.model.dof_damping)):
-            each = [float(np.ravel(values[j if what == "stiffness" else self.model.jnt_dofadr[j]])[0]) for j in joints]
+        model, found = self.model, []
+        forces = {"stiffness": model.jnt_stiffness[joints], "damping": model.dof_damping[model.jnt_dofadr[joints]]}
+        for what, values in forces.items():
+            each = [float(np.ravel(value)[0]) for value in values]
             for joint, value in zip(joints, each, strict=True):
                 if value < 0:
                     self._refuse(f"{self._name('joint', joint)} has a negative {what}, {value:g}; give 0 or more")

@@ -73,7 +73,9 @@ def to_mjcf(
 
     A support on a spring, or a trolley, is a ``carriage`` on two slides, ``carriage_x`` and ``carriage_y``, with the
     support's stiffness and damping. Springs and dashpots at a pin are the stiffness and damping of both its hinges. The
-    springs are relaxed where the chain hangs straight, or with its inverted links upright.
+    springs are relaxed where the chain hangs straight, or with its inverted links upright. Small motions about this
+    position are those of `modes`. In a disturbed steady shape dashpots at hinges take more energy than those of
+    `SteadyShape.stability`, where links may also turn about their own axes.
 
     MuJoCo accepts no moment of inertia below 1e-15 kg m^2. This amount is added to each link about all axes, as for a
     small ball. Steady motion is unchanged; disturbed motion changes by the ratio of this amount to the moment of

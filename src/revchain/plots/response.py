@@ -105,8 +105,8 @@ def plot_swing(
     """Draw the system at the given times, the offsets of pins against time, or their paths seen from above.
 
     kind: ``"shapes"``: shapes from dark (early) to light (late), with enlarged offsets, at most five; the usual one
-        of a swing in a plane. ``"time"``: offsets against time, with momentum those along y dashed. ``"path"``:
-        paths seen from above; the usual one, and only, with momentum.
+        of a swing in a plane. ``"time"``: offsets against time, with momentum those along y dashed; the usual one of a
+        support that is moved, which is grey. ``"path"``: paths seen from above; the usual one, and only, with momentum.
     pins: For ``"time"`` and ``"path"``: numbers of the pins, 0 for the free end; for a cord, indices in
         `arc_length`.
     raises: If `kind` is another word, or there is no such pin.
@@ -120,13 +120,16 @@ def plot_swing(
     """
     caller, turns = "revchain.Swing.plot", found.offset.dtype.kind == "c"
     kinds = ("path", "time") if turns else ("shapes", "time")
-    kind = word(caller, "kind", kinds[0] if kind is None else kind, kinds)
+    usual = "time" if found.motion_end and not turns else kinds[0]
+    kind = word(caller, "kind", usual if kind is None else kind, kinds)
     chosen, order = pins_among(caller, pins, range(found.offset.shape[1])), np.argsort(found.time)
     size = {"time": (7.0, 4.0), "path": (5.0, 5.0), "shapes": (5.0, 6.0)}[kind]
     ax = beside_at_rest(found.system, ax, *size, across=0.0 if kind == "shapes" else None)
     if kind == "shapes":
         return _draw_moments(found, ax, order)
     arc, time = found.arc_length, found.time[order]
+    if kind == "time" and found.support_offset is not None:
+        ax.plot(time, found.support_offset[order], color="0.55", linewidth=1.2, label="support")
     for number, pin in enumerate(chosen):
         at, colour = found.offset[order, pin], house(number)
         label = pin_name(pin) if arc is None or not arc[pin] else f"point {pin}"

@@ -81,7 +81,8 @@ void RiggedLinks::add_support(Shape& shape, const Fine& height, const Found& fou
 /// tension, or the moment of the moving weight of the lowest link, cannot be distinguished from 0.
 REVCHAIN_LAZY
 RiggedLinks rigged_links(const Rig& rig, const Fine& height, const Fine& speed) {
-    detail::require_no_pins("steady_shapes", "steady shapes", rig, false);
+    if (rig.has_pin_springs() || rig.support().damping.high > 0)
+        detail::require_no_pins("steady_shapes", "steady shapes", rig, false);
     RiggedLinks result;
     result.units = rig.chain().units();
     result.given = detail::rig_links(rig);
@@ -117,7 +118,11 @@ RiggedLinks rigged_links(const Rig& rig, const Fine& height, const Fine& speed) 
     if (!held.is_firm()) {
         const Fine stiffness =
             ldexp(held.stiffness, result.units.length_exponent - result.units.weight_exponent);
-        result.support.stiffness = ldexp(height, -result.units.length_exponent) * stiffness;
+        // A trolley that rolls freely has a spring that is too soft to be seen in double words.
+        constexpr double unseen = 0x1p-200;
+        result.support.stiffness = held.is_free()
+                                       ? Fine(unseen)
+                                       : ldexp(height, -result.units.length_exponent) * stiffness;
         result.support.compliance = Fine(1.0) / result.support.stiffness;
         result.support.carriage =
             Fine(std::ldexp(held.carriage_weight, -result.units.weight_exponent));

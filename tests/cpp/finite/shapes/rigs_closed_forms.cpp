@@ -166,3 +166,24 @@ TEST_CASE("a compound link on a spring, at any inclination", "[finite][rig]") {
     CHECK(met > 200);
     CHECK(measured.error <= 4.5e-16);
 }
+
+TEST_CASE("a load under a trolley that rolls freely: the centre of mass is on the axis", "[finite][rig]") {
+    const double l = 1.7;
+    for (const double w : {0.1, 4.0, 300.0})
+        for (const double c : {0.05, 1.0, 1e6})
+            for (const double lambda : {0.01, 0.3, 1.2}) {
+                // the load is at l sin d c / (c + w) from the axis: cos d = lambda (c + w) / (l c)
+                const double cosine = lambda * (c + w) / (l * c);
+                const auto found = revchain::steady_shapes(
+                    Rig(Chain<double>({plummet<double>(w, l)}), {.support = revchain::free_trolley(c)}),
+                    {.conical_height = lambda});
+                CAPTURE(w, c, lambda, cosine);
+                REQUIRE(found.complete);
+                REQUIRE(found.shapes.size() == (cosine < 1 ? 1U : 0U));
+                if (found.shapes.empty()) continue;
+                const auto& shape = found.shapes[0];
+                CHECK(std::abs(std::cos(shape.inclination[0]) - cosine) <= 1e-15);
+                CHECK(std::abs(w * shape.offset[0] + c * shape.offset[1]) <= 1e-15 * w * std::abs(shape.offset[0]));
+                CHECK(shape.half_waves == 2);
+            }
+}
