@@ -14,7 +14,7 @@ NAMES = [
     *("rods_on_threads", "ball_on_chain", "clamped_bell", "jointed_rod", "carriage_on_springs"),
     *("bell_on_soft_frame", "swing_carousel", "chair_o_plane"),
     *("bicycle_wheels", "two_gyrostats", "moored_floats", "gyroscopes_under_float", "stokes_float", "broomstick"),
-    *("acrobat", "troposkien", "plucked_chain"),
+    *("acrobat", "troposkien", "plucked_chain", "crane_brakes", "crane_brakes_shaped", "hanging_cable"),
 ]
 
 def drawn(scene, question, found):

@@ -27,7 +27,7 @@ def let_go(scene):
     squares, vectors = mp.eigsy(root * inertia * root)  # 1/n^2
     share = vectors.T * root**-1 * angles
     found = {}
-    for time in (number(swing["until"]) / 2, number(swing["until"])):
+    for time in (number(swing["time"]["to"]) / 2, number(swing["time"]["to"])):
         moved = root * vectors * mp.matrix([share[k] * mp.cos(time / mp.sqrt(squares[k])) for k in range(n)])
         offset = [mpf(0)]
         for m in reversed(range(n)):
@@ -42,7 +42,7 @@ def held(scene):
     gravity = number(scene.get("gravity", mpf("9.80665")))
     span, speed = number(scene["held"]["span"]), number(asked["angular_speed"])
     rows = []
-    for waves in range(1, asked.get("half_waves", 1) + 1):
+    for waves in range(1, asked.get("max_half_waves", 1) + 1):
         angles, across, along = stationary(links, gravity, span, speed, waves)
         offset = [mpf(0)]
         for link, angle in zip(links, angles, strict=True):

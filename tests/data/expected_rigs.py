@@ -18,7 +18,8 @@ from __future__ import annotations
 import mpmath as mp
 from mpmath import mpf
 
-UNITS = {"N/m": mpf(1), "cm": mpf("0.01"), "g": mpf("0.001"), "rpm": None}
+UNITS = {"N/m": mpf(1), "m": mpf(1), "cm": mpf("0.01"), "kg": mpf(1), "g": mpf("0.001"), "t": mpf(1000), "rpm": None}
+UNITS |= {"kN m/rad": mpf(1000), "kN m s/rad": mpf(1000)}
 
 
 def number(given):
@@ -56,6 +57,8 @@ class Link:
             moves = -displaced if fluid == "turning" else number(water.get("added_mass", 0))
             assert not {"centroid", "radius_of_gyration"} & set(water)
             self.bodies.append((-displaced, moves, h, rho2))
+        pin = table.get("pin", {})
+        self.spring, self.dashpot = (number(pin.get(name, 0)) for name in ("stiffness", "damping"))
         wheel = table.get("flywheel")
         self.momentum = self.axial_moment = mpf(0)
         if wheel:
@@ -99,6 +102,11 @@ def equations(links, gravity, stiffness=None, carriage=mpf(0)):
                 for k in range(size):
                     inertia[j, k] += moves * arm[j] * arm[k]
             inertia[m, m] += moves * rho2
+        bend[m, m] += link.spring  # at the upper pin, to the link above or the vertical
+        if m + 1 < n:
+            bend[m + 1, m + 1] += link.spring
+            bend[m, m + 1] -= link.spring
+            bend[m + 1, m] -= link.spring
         # the axis from the lower to the upper pin is up where the link hangs, down where it stands
         gyro[m, m] += link.sign * link.momentum
         inertia[m, m] -= link.axial_moment  # p = C (spin +- n), and the axis down once more changes the sign
@@ -186,6 +194,40 @@ def carried(scene, speed):
     return offset
 
 
+def damped(scene):
+    """The exponents of a chain with dashpots, and its offsets at some times while the support is moved by velocities."""
+    gravity, links = number(scene.get("gravity", mpf("9.80665"))), links_of(scene)
+    n, whole = len(links), mp.matrix(2 * len(links) + 2)
+    bend, _, inertia, _ = equations(links, gravity)
+    _, _, with_support, _ = equations(links, gravity, mpf(0))
+    rub = mp.matrix(n)
+    for m, link in enumerate(links):
+        for j, k, sign in ((m, m, 1), (m + 1, m + 1, 1), (m, m + 1, -1), (m + 1, m, -1)):
+            if max(j, k) < n:
+                rub[j, k] += sign * link.dashpot
+    inverse = inertia**-1
+    # angles, rates, and the support's velocity and acceleration; its inertia drives the angles
+    whole[:n, n : 2 * n], whole[2 * n, 2 * n + 1] = mp.eye(n), mpf(1)
+    whole[n : 2 * n, :n], whole[n : 2 * n, n : 2 * n] = -inverse * bend, -inverse * rub
+    whole[n : 2 * n, 2 * n + 1] = -inverse * with_support[:n, n]
+    exponents = sorted(mp.eig(whole[: 2 * n, : 2 * n], left=False, right=False), key=lambda s: (abs(s), mp.im(s)))
+    swing, moved = scene.get("ask", {}).get("swing", {}), {}
+    if "support_velocity" in swing:
+        times, speeds = ([number(x) for x in swing[f"support_{name}"]] for name in ("time", "velocity"))
+        state, place, now = mp.matrix(2 * n + 2, 1), mpf(0), times[0]
+        assert now == 0
+        state[2 * n] = speeds[0]
+        for end, speed in [*zip(times[1:], speeds[1:], strict=True), (number(swing["time"]["to"]), speeds[-1])]:
+            state[2 * n + 1] = (speed - state[2 * n]) / (end - now)
+            place += (end - now) * (state[2 * n] + speed) / 2
+            state, now = mp.expm(whole * (end - now)) * state, end
+            offset = [place]
+            for m in reversed(range(n)):
+                offset.insert(0, offset[0] + links[m].length * state[m])
+            moved[mp.nstr(end, 20)] = [mp.nstr(y, 30) for y in offset]
+    return [s for s in exponents if mp.im(s) >= 0], moved
+
+
 def nodes_of(links, offset):
     """Distances from the free end where the offset changes its sign; of hanging links on a firm support."""
     nodes, at = [], mpf(0)
@@ -250,8 +292,12 @@ def check_closed_forms():
 def expected_of(scene, digits, asked):
     """What stands in the file of expected values about modes and others."""
     check_closed_forms()
+    if any(link.dashpot for link in links_of(scene)):
+        exponents, moved = damped(scene)
+        pairs = [[mp.nstr(mp.re(s), digits), mp.nstr(mp.im(s), digits)] for s in exponents]
+        return {"size": len(links_of(scene)), "modes": [], "exponents": pairs, "swing": moved}
     gravity, links, modes, others = solve(scene)
-    rigged = "support" in scene or any({"standing", "flywheel", "displaced"} & set(t) for t in scene.get("links", []))
+    rigged = "support" in scene or any({"standing", "flywheel", "displaced", "pin"} & set(t) for t in scene.get("links", []))
     spinning = any(link.momentum for link in links)
     numbers = {1: 0, -1: 0}
     rows = []

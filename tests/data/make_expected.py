@@ -159,7 +159,7 @@ def check(links, heights, name):
 
 def is_rigged(scene):
     """Whether anything in it is beyond a plain chain."""
-    beyond = {"standing", "flywheel", "displaced", "clamped", "tip_mass"}
+    beyond = {"standing", "flywheel", "displaced", "clamped", "tip_mass", "pin"}
     return "support" in scene or any(beyond & set(t) for t in [scene.get("uniform_chain", {}), *scene.get("links", [])])
 
 

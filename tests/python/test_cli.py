@@ -312,7 +312,7 @@ REFUSED = {  # command lines that end in one sentence without an answer
     "response swinging.toml --angular-speed '1 to 2 rpm in 2.5'": 'such as "30 rpm", got "2 rpm in 2.5"',
     "response swinging.toml --angular-speed '1 to 2 in 0'": "--angular-speed.steps: must be at least 1, got 0",
     "explain watch.toml --rtol -1": "--rtol: must not be negative, got -1",
-    "swing watch.toml": "ask.swing.offset: is missing",
+    "swing watch.toml": "ask.swing.offset: give offset, velocity or support_time: nothing would move",
     "run study.toml": "is of a study, not of a scene: revchain sweep study.toml",
     "sweep swinging.toml": "is of a scene, not of a study: revchain run swinging.toml",
     "sweep study.toml --chunk 0": "'--chunk'",

@@ -23,9 +23,10 @@ GALLERY = sorted(PYTHON.glob("*/*.py"))
 EXPERIMENTS = [path for path in GALLERY if path.parent.name == "experiments"]
 PROGRAMS = sorted({*GALLERY, *PYTHON.glob("draw_*.py")} - {*EXPERIMENTS, PYTHON / "draw_programs.py"})  # which runs all
 LOADED = {path: rc.load_scene(path) for path in SCENES}
-RIGS = [path for path in SCENES if LOADED[path].is_rigged]
+DAMPED = [path for path in SCENES if getattr(LOADED[path].system(), "is_damped", False)]
+RIGS = [path for path in SCENES if LOADED[path].is_rigged and path not in DAMPED]
 HELD = [path for path in SCENES if LOADED[path].is_held]
-CHAINS = [path for path in SCENES if path not in RIGS + HELD]
+CHAINS = [path for path in SCENES if path not in RIGS + HELD + DAMPED]
 ULP = 2.0**-52
 # The expected values belong to the decimals of the file and the answers to their roundings. Those cost up
 # to some ulp in principle and 0.9 ulp measured (bell_and_clapper), inside the bound of 2 ulp.
@@ -149,6 +150,20 @@ def test_held_at_both_ends(path):
     for shape, row in zip(by_weight, expected["shapes"], strict=True):
         pull = np.array([float(x) for x in row["lower_pull"]])
         np.testing.assert_allclose(shape.lower_pull, pull, rtol=0, atol=0.05 * ULP * shape.tension.max())
+
+
+@pytest.mark.parametrize("path", DAMPED, ids=lambda path: path.stem)
+def test_damped(path):
+    """Exponents, and the motion while the support is moved."""
+    scene, result, expected = solved(path)
+    assert result.complete and len(result) == len(expected["exponents"])
+    with mp.workdps(40):
+        for found, exponent in zip(result.exponent, expected["exponents"], strict=True):
+            assert abs(mp.mpc(complex(found)) - mp.mpc(*exponent)) <= 2 * ULP * abs(mp.mpc(*exponent))
+    found = scene.swing(time=[float(t) for t in expected["swing"]])
+    assert found.time.size >= 2
+    for got, offset in zip(found.offset, expected["swing"].values(), strict=True):
+        np.testing.assert_allclose(got, [float(y) for y in offset], rtol=4 * ULP)
 
 
 def test_let_go():
@@ -308,7 +323,7 @@ def test_page_of_scenes():
     assert "5.95 m, inclined at 23 degrees" in page
     assert f"{out.offset[0]:.2f} m at {np.degrees(out.inclination[0]):.0f}" == "5.95 m at 23"
     chains = {"ball_on_chain", "clamped_bell", "jointed_rod", "rods_on_threads"}
-    assert {path.stem for path in RIGS + HELD} | chains | {"plucked_chain"} == set(shown)
+    assert {path.stem for path in RIGS + HELD} | chains | {"plucked_chain", "crane_brakes_shaped"} == set(shown)
 
 
 def test_experiments_are_whole():

@@ -49,13 +49,11 @@ class TransientMotion {
         result_.offset.resize(rows, pins), result_.velocity.resize(rows, pins);
         result_.error_estimate.resize(rows);
         superpose();
-        if (motions_.system().inertia && !(loss_ < 1e-9)) {
+        if (rows > 0 && motions_.system().inertia && !(loss_ < 1e-9)) {
             const Transient sum = result_;
             step_through();
-            const auto most = [](const Transient& of) {
-                return of.error_estimate.size() == 0 ? 0.0 : of.error_estimate.maxCoeff();
-            };
-            if (motions_.all_found() && most(sum) <= most(result_)) result_ = sum;
+            const double most = result_.error_estimate.maxCoeff();
+            if (motions_.all_found() && sum.error_estimate.maxCoeff() <= most) result_ = sum;
         }
         return std::move(result_);
     }
@@ -328,7 +326,8 @@ class TransientMotion {
                 Vector<Complex> y = pins_of(state[0], 0), v = pins_of(state[0], n) * pace;
                 const Vector<Complex> other = pins_of(state[1], 0);
                 result_.error_estimate[row] =
-                    2 * (y - other).cwiseAbs().maxCoeff() + 0x1p-48 * y.cwiseAbs().maxCoeff();
+                    2 * (y - other).cwiseAbs().maxCoeff() +
+                    (0x1p-48 + whole.rounding(t * pace)) * y.cwiseAbs().maxCoeff();
                 add_support(pieces_[k], t - pieces_[k].begin, y, v);
                 result_.offset.row(row) = y.transpose(), result_.velocity.row(row) = v.transpose();
             }

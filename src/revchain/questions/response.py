@@ -152,7 +152,7 @@ def response(
         "pins": which,
         **{name: drive.get(name) for name in drives},
     }
-    pinned = support is not None and (system._has_pins or support.stiffness == 0)
+    pinned = isinstance(system, Rig) and (system._has_pins or system.support.stiffness == 0)
     if pinned or "support_radius" not in drive:
         return _forced(caller, system, speed, g, drive, number, parts, axis)
     asked = (given.reshape(-1), angular_speed is not None, drive["support_radius"], which.reshape(-1), g, number)

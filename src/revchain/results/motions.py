@@ -151,7 +151,7 @@ class Response(Result, Moving):
         else:
             columns.append(Column(f"{name.replace(' ', '_')}_offset", offset[:, 0], f"{name} off axis (m)", 5))
         if self.amplification is not None:
-            first = self.amplification.reshape(speed.size, -1)[:, 0] if pins.size else np.full(speed.size, np.nan)
+            first = self.amplification.reshape(offset.shape)[:, 0] if pins.size else np.full(speed.size, np.nan)
             columns.append(Column("first_pin_amplification", np.abs(first) if damped else first, "over support", 4))
         columns += [
             Column("largest_offset", farthest, "farthest pin (m)", 5),
@@ -167,8 +167,9 @@ class Response(Result, Moving):
         if self.support_force_error is not None:
             columns.append(Column("support_force_error", self.support_force_error.reshape(-1)))
         columns.append(Column("offset", offset, axes=("pin",)))
+        drive = "support" if self.force is None else "force"
         notes = [
-            "ahead of the drive; negative: it lags" if damped else "negative: opposite to the drive; nan: at a resonance",
+            f"ahead of the {drive}; negative: it lags" if damped else f"negative: opposite to the {drive}; nan: at a resonance",
             f"error {'bound' if self.error_estimate is None else 'estimate'}: rounding error over the largest offset; pull: "
             "outward force on the support",
             f"steady motion of small amplitude, {'with' if damped else 'without'} damping",
@@ -369,9 +370,9 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
     def _words(self) -> str:
         what = "whirl" if self._turns else "mode"
         if self.energy is None:
-            many = self.angular_frequency.size
+            count = self.angular_frequency.size
             since = f"after {self.motion_end:.6g} s the free end sways by" if self.motion_end else "the free end sways by"
-            return f"{many} {what}{'s' * (many != 1)}; {since} {self.residual_sway:.5g} m at most"
+            return f"{count} {what}{'s' * (count != 1)}; {since} {self.residual_sway:.5g} m at most"
         energy = np.abs(self.energy)
         share = energy / energy.sum() if energy.sum() > 0 else energy
         most = np.argsort(share)[::-1][:3]

@@ -84,6 +84,12 @@ class SteppedMotion {
         return (exponential_ * all).head(2 * n_);
     }
 
+    /// Returns an estimate of the relative error of a step.
+    double rounding(double h) const {
+        return epsilon<double>() * h *
+               A_.topLeftCorner(2 * n_, 2 * n_).cwiseAbs().colwise().sum().maxCoeff();
+    }
+
    private:
     Index n_, columns_;
     Matrix<T> A_, exponential_;
