@@ -104,10 +104,11 @@ TEST_CASE("a long damped chain, whose modes are nearly dependent, is proved in t
     CHECK(exponents == 202);
 }
 
-TEST_CASE("springs at pins without dashpots: proved speeds and all of them", "[linear]") {
-    support::Random random(5);
+namespace {
+void check_springs(int count, std::uint64_t seed) {
+    support::Random random(seed);
     for (const bool extreme : {false, true})
-        for (int k = 0; k < 200; ++k) {
+        for (int k = 0; k < count; ++k) {
             const Rig rig = random_rig(random, {.damped = false, .extreme = extreme});
             if (rig.is_plain_chain()) continue;
             const RigModes found = modes(rig, {.count = all_modes, .gravity = 9.81});
@@ -126,6 +127,11 @@ TEST_CASE("springs at pins without dashpots: proved speeds and all of them", "[l
             }
         }
 }
+}  // namespace
+
+TEST_CASE("springs at pins without dashpots: proved speeds and all of them", "[linear]") { check_springs(200, 5); }
+
+TEST_CASE("10,000 random rigs with springs at pins", "[.slow]") { check_springs(5000, 15); }
 
 TEST_CASE("standing links on springs: growth rates and modes", "[linear]") {
     support::Random random(6);

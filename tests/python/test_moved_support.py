@@ -6,6 +6,7 @@ tests/cpp/transient.cpp."""
 import math
 import pickle
 
+import mpmath as mp
 import numpy as np
 import pytest
 from exact import near
@@ -191,6 +192,70 @@ def test_flywheels_turn_a_damped_swing():
     weak = rc.swing(rc.Rig(rig.chain, flywheels=rig.flywheels, pins=rc.Pin(damping=1e-13)), [0.7], offset=[0.1, 0.05j])
     plain = rc.swing(rc.Rig(rig.chain, flywheels=rig.flywheels), [0.7], offset=[0.1, 0.05j])
     assert weak.offset == near(plain.offset, rel=1e-10)
+
+
+def equations_of(rig):
+    """M, C - i G, K of point masses in rotations, lowest first, in 50 digits; and M times a motion of all."""
+    n, a, m = rig.size, [mp.mpf(x) for x in rig.chain.length], [mp.mpf(x) for x in rig.chain.mass]
+    M, C, K, together = mp.matrix(n), mp.matrix(n), mp.matrix(n), mp.matrix(n, 1)
+    for k in range(n):  # the mass at the lower end of link k
+        arm = [mp.mpf(0)] * k + a[k:]
+        for i in range(n):
+            together[i] += m[k] * arm[i]
+            K[i, i] += m[k] * G * arm[i]
+            for j in range(n):
+                M[i, j] += m[k] * arm[i] * arm[j]
+    momentum = np.broadcast_to(rig.flywheels.momentum, n)
+    for k in range(n):
+        C[k, k] -= mp.mpc(0, float(momentum[k]))
+        for i, j, sign in ((k, k, 1), (k + 1, k + 1, 1), (k, k + 1, -1), (k + 1, k, -1)):
+            if max(i, j) < n:
+                C[i, j] += sign * mp.mpf(rig.pins.damping[k])
+                K[i, j] += sign * mp.mpf(rig.pins.stiffness[k])
+    return M, C, K, together
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_gyroscopic_damped_chains_in_50_digits(seed):
+    """Exponents by the first-order form, and motions under an accelerated support by its exponential."""
+    random = np.random.default_rng(seed)
+    n = 1 + seed % 4
+    rig = rc.Rig(
+        rc.Chain(mass=10 ** random.uniform(-1, 1, n), length=10 ** random.uniform(-0.5, 0.5, n)),
+        flywheels=rc.Flywheel(momentum=random.uniform(-3, 3, n)),
+        pins=rc.Pin(stiffness=10 ** random.uniform(-1, 1, n), damping=10 ** random.uniform(-2, 0.5, n)),
+    )
+    start = random.uniform(-1, 1, n) + 1j * random.uniform(-1, 1, n)
+    speed = random.uniform(-1, 1, n) + 1j * random.uniform(-1, 1, n)
+    push, end = random.uniform(-1, 1, 2), 1.25
+    found = rc.swing(rig, [end], offset=start, velocity=speed, support=rc.SupportMotion([0.0, end], acceleration=push), gravity=G)
+    with mp.workdps(50):
+        M, C, K, together = equations_of(rig)
+        whole, inverse = mp.matrix(2 * n + 2), M**-1
+        whole[:n, n : 2 * n] = mp.eye(n)
+        whole[n : 2 * n, :n], whole[n : 2 * n, n : 2 * n] = -inverse * K, -inverse * C
+        whole[n : 2 * n, 2 * n], whole[2 * n, 2 * n + 1] = -inverse * together, mp.mpf(1)
+        exponents = mp.eig(whole[: 2 * n, : 2 * n], left=False, right=False)
+        m = rc.modes(rig, "all", gravity=G)
+        assert len(m) == 2 * n and m.complete
+        for s, bound in zip(m.exponent, m.speed_error_bound, strict=True):
+            near_by = min(exponents, key=lambda t: abs(t - mp.mpc(complex(s))))
+            assert abs(near_by - mp.mpc(complex(s))) <= 4 * mp.mpf(2) ** -53 * abs(near_by) and bound < 1e-14
+        state = mp.matrix(2 * n + 2, 1)
+        for k in range(n):
+            for at, y in ((k, start), (n + k, speed)):
+                above = y[k + 1] if k + 1 < n else 0.0
+                state[at] = (mp.mpc(complex(y[k])) - mp.mpc(complex(above))) / mp.mpf(rig.chain.length[k])
+        low, high = (mp.mpf(float(x)) for x in push)
+        state[2 * n], state[2 * n + 1] = low, (high - low) / end
+        state = mp.expm(whole * end) * state
+        offset = [end * end * (low / 3 + high / 6)]
+        for k in reversed(range(n)):
+            offset.insert(0, offset[0] + mp.mpf(rig.chain.length[k]) * state[k])
+        largest = max(abs(y) for y in offset)
+        for got, exact in zip(found.offset[0], offset, strict=True):
+            assert abs(mp.mpc(complex(got)) - exact) <= 1e-13 * largest
+        assert found.error_estimate[0] >= float(abs(mp.mpc(complex(found.offset[0, 0])) - offset[0])) / 10
 
 
 SCENE = {"links": [{"mass": "4 t", "length": "12 m"}]}
