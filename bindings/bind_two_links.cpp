@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings.hpp"
 #include "revchain/buffer.hpp"
+#include "revchain/sleeve_governor.hpp"
 #include "revchain/two_links.hpp"
 
 namespace {
@@ -102,6 +103,50 @@ void bind_two_links(py::module_& module) {
             return revchain::standing_link_shape(a, Link{h, k}, lambda);
         },
         "thread"_a, "centroid"_a, "radius_of_gyration"_a, "height"_a);
+
+    using revchain::GovernorPoint;
+    using revchain::SleeveGovernor;
+    const auto row = [](const GovernorPoint& p) {
+        return std::array<double, 9>{p.inclination, p.speed, p.low_speed,          p.high_speed, p.ball_radius,
+                                     p.height,      p.lift,  p.stable ? 1.0 : 0.0, p.period};
+    };
+    py::class_<SleeveGovernor>(module, "SleeveGovernor", "A centrifugal governor with a sleeve.")
+        .def(py::init([](double ball_mass, int balls, double arm, double pivot_offset, double lower_arm, double joint,
+                         double sleeve_offset, double sleeve_arm, double sleeve_mass, double spring_stiffness,
+                         double spring_force, double friction, double shaft_inertia, double gravity) {
+                 return SleeveGovernor({ball_mass, balls, arm, pivot_offset, lower_arm, joint, sleeve_offset,
+                                        sleeve_arm, sleeve_mass, spring_stiffness, spring_force, friction,
+                                        shaft_inertia, gravity});
+             }),
+             "ball_mass"_a, "balls"_a, "arm"_a, "pivot_offset"_a, "lower_arm"_a, "joint"_a, "sleeve_offset"_a,
+             "sleeve_arm"_a, "sleeve_mass"_a, "spring_stiffness"_a, "spring_force"_a, "friction"_a, "shaft_inertia"_a,
+             "gravity"_a)
+        .def(
+            "at",
+            [row](const SleeveGovernor& governor, const Array& inclination) {
+                return columns<9>([&](double angle) { return row(governor.at(angle)); }, inclination);
+            },
+            "inclination"_a, "The governor at inclinations.")
+        .def(
+            "equilibria",
+            [row](const SleeveGovernor& governor, double speed) {
+                bool complete = false;
+                const auto points = governor.equilibria(speed, &complete);
+                revchain::Table<double> table(static_cast<revchain::Index>(points.size()), 9);
+                for (revchain::Index i = 0; i < table.rows(); ++i) {
+                    const auto values = row(points[static_cast<std::size_t>(i)]);
+                    for (revchain::Index k = 0; k < 9; ++k) table(i, k) = values[static_cast<std::size_t>(k)];
+                }
+                return py::make_tuple(to_numpy(table), complete);
+            },
+            "speed"_a, "All equilibria at a speed.")
+        .def(
+            "effort",
+            [](const SleeveGovernor& governor, double inclination, double change) {
+                const auto answer = governor.effort(inclination, change);
+                return py::make_tuple(answer.effort, answer.lift, answer.power);
+            },
+            "inclination"_a, "change"_a, "Effort, lift and power.");
 
     using revchain::BufferImpact;
     py::class_<BufferImpact>(module, "BufferImpact", "Two carriages that run against a buffer stop.")

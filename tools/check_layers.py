@@ -74,6 +74,7 @@ PUBLIC = {
     "buffer.hpp": "paper",
     "compound_link.hpp": "paper",
     "governor.hpp": "special",
+    "sleeve_governor.hpp": "paper",
     "gyrostatic_string.hpp": "paper",
     "hoop.hpp": "paper",
     "rope.hpp": "special",

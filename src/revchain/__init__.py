@@ -17,7 +17,7 @@ Results
     files that their method ``save`` wrote. Variants of these, and classes of their fields, are in the reference.
 Closed forms
     conical_pendulum, plummet, two_links, elliptic, hoop, bell_and_clapper, funicular_polygon, transverse_modes,
-    recurrence_matrices; BellAndClapper, BufferImpact, GovernorMotion, GyrostaticString, SkippingRope, TortuousRope,
+    recurrence_matrices; BellAndClapper, BufferImpact, GovernorMotion, SleeveGovernor, GyrostaticString, SkippingRope, TortuousRope,
     FunicularPolygon, TransverseModes
 Files
     Scene, load_scene, Study, load_study, sweep, SceneError; of multibody engines to_mjcf, from_mjcf, to_urdf,
@@ -95,6 +95,7 @@ if _TYPE_CHECKING:
     from .closed_forms import two_links as two_links
     from .closed_forms.bell import BellAndClapper as BellAndClapper
     from .closed_forms.bell import bell_and_clapper as bell_and_clapper
+    from .closed_forms.governor import SleeveGovernor as SleeveGovernor
     from .closed_forms.motions import BufferImpact as BufferImpact
     from .closed_forms.motions import GovernorMotion as GovernorMotion
     from .closed_forms.strings import GyrostaticString as GyrostaticString
@@ -127,6 +128,7 @@ _LATER = dict.fromkeys(_CLOSED_FORMS, "closed_forms") | {
     "BellAndClapper": "closed_forms.bell",
     "bell_and_clapper": "closed_forms.bell",
     "BufferImpact": "closed_forms.motions",
+    "SleeveGovernor": "closed_forms.governor",
     "GovernorMotion": "closed_forms.motions",
     "GyrostaticString": "closed_forms.strings",
     "SkippingRope": "closed_forms.motions",

@@ -18,6 +18,7 @@ DRAWN_BY = {
     "SkippingRope": "closed_forms.plot_skipping_rope",
     "TortuousRope": "closed_forms.plot_tortuous_rope",
     "GovernorMotion": "closed_forms.plot_governor",
+    "SleeveGovernor": "closed_forms.plot_sleeve_governor",
     "GyrostaticString": "closed_forms.plot_waves",
     "GyrostaticString.vibration": "closed_forms.plot_vibration",
     "BellAndClapper": "closed_forms.plot_bell",

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from ..closed_forms.bell import BellAndClapper
+    from ..closed_forms.governor import SleeveGovernor
     from ..closed_forms.motions import GovernorMotion, SkippingRope, TortuousRope
     from ..closed_forms.strings import FunicularPolygon, GyrostaticString
     from ..results.diagrams import ForceDiagram
@@ -232,6 +233,31 @@ def plot_governor(motion: GovernorMotion, ax: Axes | None = None, *, duration: f
     ax.plot(time, np.degrees(motion.state(time).angle), linewidth=1.6)
     period = f", period {motion.period:.4g} s" if 0 < motion.period < np.inf else ""
     ax.set(xlabel="time (s)", ylabel="angle (degrees)", title=f"{motion.regime}{period}")
+    return ax
+
+
+@described(bound=True)
+def plot_sleeve_governor(governor: SleeveGovernor, ax: Axes | None = None, *, speed: str = "rpm") -> Axes:
+    """Draw the lift of the sleeve against the speed, between the stops; grey: where friction holds it; dashed: unstable.
+
+    >>> hartnell = rc.SleeveGovernor(ball_mass=1.5, arm=0.12, pivot_offset=0.12, sleeve_arm=0.06, sleeve_mass=2.0,
+    ...     spring_stiffness=5000.0, spring_force=150.0, friction=5.0, lowest_inclination=-0.2, highest_inclination=0.3)
+    >>> hartnell.plot().get_xlabel()
+    'speed (rpm)'
+    """
+    unit = SpeedUnit("revchain.SleeveGovernor.plot", speed)
+    ax = axes_or_new(ax, 6.4, 4.0)
+    low, *_, high = governor._sheet().columns[0].values.tolist()
+    at = governor.at(np.linspace(low, high, 300))
+    lift, turning = np.asarray(at.lift), np.asarray(at.angular_speed)
+    if governor._given["sleeve_arm"] == governor._given["lower_arm"] == 0:  # no sleeve: the balls instead
+        lift = np.asarray(at.ball_radius)
+    if governor._given["friction"]:
+        ax.fill_betweenx(lift, unit.of(np.asarray(at.low_speed)), unit.of(np.asarray(at.high_speed)), color="0.85", zorder=1)
+    for stable, style in ((True, "-"), (False, "--")):
+        ax.plot(unit.of(np.where(np.asarray(at.stable) == stable, turning, np.nan)), lift, style, color=BLUE, linewidth=1.6)
+    what = "lift of the sleeve (m)" if np.ptp(at.lift) else "balls off the axis (m)"
+    ax.set(xlabel=unit.label, ylabel=what)
     return ax
 
 

@@ -40,7 +40,7 @@ _NAMES = {
     "tip_radius support_radius offset support_offset arc_length displaced_centroid displaced_radius_of_gyration "
     "height x arm thread rod distance deflection tip slack sag arc place pendulum",
     "a mass": "mass added_mass tip_mass",
-    "a force": "weight added_weight tip_weight tension top_tension force support_force",
+    "a force": "weight added_weight tip_weight tension top_tension force support_force friction",
     "an acceleration": "gravity acceleration support_acceleration",
     "a force per length": "stiffness",
     "a force over a speed": "damping",
@@ -51,7 +51,7 @@ _NAMES = {
     "a time": "time period support_time",
     "an angle": "angle phase inclination lowest_inclination clearance amplitude",
     "an angular momentum": "momentum",
-    "a moment of inertia": "axial_moment",
+    "a moment of inertia": "axial_moment shaft_inertia",
     "a fraction": "rtol",
 }
 SI = {name: (_KINDS[kind][0], kind, _KINDS[kind][1]) for kind, names in _NAMES.items() for name in names.split()}

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "revchain/numeric/interval.hpp"
+#include "revchain/numeric/zero_between.hpp"
+#include "revchain/sleeve_governor.hpp"
+
+namespace revchain::inline REVCHAIN_BUILD {
+
+namespace detail {
+
+/// A function of the inclination with its first two derivatives. X is a number or an interval.
+template <class X>
+struct Jet {
+    X value{}, slope{}, bend{};
+
+    Jet() = default;
+    Jet(const X& v) : value(v) {}  // NOLINT(google-explicit-constructor): a constant
+    Jet(const X& v, const X& s, const X& b) : value(v), slope(s), bend(b) {}
+
+    friend Jet operator+(const Jet& x, const Jet& y) {
+        return {x.value + y.value, x.slope + y.slope, x.bend + y.bend};
+    }
+    friend Jet operator-(const Jet& x, const Jet& y) {
+        return {x.value - y.value, x.slope - y.slope, x.bend - y.bend};
+    }
+    friend Jet operator*(const Jet& x, const Jet& y) {
+        return {x.value * y.value, x.slope * y.value + x.value * y.slope,
+                x.bend * y.value + X(2.0) * x.slope * y.slope + x.value * y.bend};
+    }
+    /// Returns the square root.
+    friend Jet root(const Jet& x) {
+        using std::sqrt;
+        const X r = sqrt(x.value), s = x.slope / (X(2.0) * r);
+        return {r, s, (x.bend - X(2.0) * s * s) / (X(2.0) * r)};
+    }
+};
+
+}  // namespace detail
+
+/// The energies of a governor at an inclination with this sine and cosine.
+struct SleeveGovernor::Motion {
+    template <class X>
+    struct Of {
+        detail::Jet<X> radius, ball, sleeve;  ///< of a ball from the axis; heights
+        detail::Jet<X> potential, inertia;
+    };
+    /// Sets what the sine and cosine of the inclination give. The height of the sleeve is measured
+    /// from `from`.
+    template <class X>
+    static Of<X> of(const GovernorData& d, const X& s, const X& c, double from) {
+        using J = detail::Jet<X>;
+        const J sine(s, c, -s), cosine(c, -s, -c);
+        const auto number = [](double x) { return J(X(x)); };
+        Of<X> m;
+        m.radius = number(d.pivot_offset) + number(d.arm) * sine;
+        if (d.sleeve_arm > 0) {
+            m.ball = number(d.arm) * cosine, m.sleeve = number(d.sleeve_arm) * sine;
+        } else {
+            m.ball = number(-d.arm) * cosine;
+            if (d.lower_arm > 0) {
+                const double joint = d.joint > 0 ? d.joint : d.arm;
+                const J out = number(d.pivot_offset - d.sleeve_offset) + number(joint) * sine;
+                const J across = (number(d.lower_arm) - out) * (number(d.lower_arm) + out);
+                m.sleeve = number(-joint) * cosine - root(across);
+            }
+        }
+        m.sleeve = m.sleeve - number(from);
+        const double balls = d.balls * d.ball_mass;
+        m.potential = number(balls * d.gravity) * m.ball +
+                      (number(d.sleeve_mass * d.gravity + d.spring_force) +
+                       number(d.spring_stiffness / 2) * m.sleeve) *
+                          m.sleeve;
+        m.inertia = number(balls) * m.radius * m.radius;
+        return m;
+    }
+    static double start(const GovernorData& d) { return of<double>(d, 0, 1, 0).sleeve.value; }
+    static bool reaches(const GovernorData& d, double sine) {
+        const double joint = d.joint > 0 ? d.joint : d.arm;
+        return d.lower_arm == 0 ||
+               std::abs(d.pivot_offset - d.sleeve_offset + joint * sine) < d.lower_arm;
+    }
+};
+
+inline SleeveGovernor::SleeveGovernor(const GovernorData& data) : data_(data) {
+    using namespace detail;
+    constexpr std::string_view place = "SleeveGovernor";
+    const GovernorData& d = data;
+    require_positive(place, "ball mass", d.ball_mass, "arm", d.arm, "gravity", d.gravity);
+    require_not_negative(place, "lower arm", d.lower_arm, "joint", d.joint, "sleeve arm",
+                         d.sleeve_arm, "sleeve mass", d.sleeve_mass, "spring stiffness",
+                         d.spring_stiffness, "friction", d.friction);
+    require_finite(place, "pivot offset", d.pivot_offset, "sleeve offset", d.sleeve_offset,
+                   "spring force", d.spring_force);
+    if (d.balls < 1) throw_invalid(place, "there must be at least one ball, got", d.balls);
+    if (!(d.shaft_inertia >= 0))
+        throw_invalid(place, "shaft inertia must not be negative", d.shaft_inertia);
+    const bool has_sleeve = d.lower_arm > 0 || d.sleeve_arm > 0;
+    if (d.lower_arm > 0 && d.sleeve_arm > 0)
+        throw_invalid(place, "give lower_arm or sleeve_arm, not both; sleeve arm", d.sleeve_arm);
+    for (const auto& [name, value] :
+         {std::pair("sleeve mass", d.sleeve_mass), std::pair("friction", d.friction),
+          std::pair("spring stiffness", d.spring_stiffness),
+          std::pair("spring force", d.spring_force)})
+        if (!has_sleeve && value != 0)
+            throw_invalid(place,
+                          std::string(name) + " needs a sleeve: give lower_arm or sleeve_arm; got",
+                          value);
+    if (!Motion::reaches(d, 0))
+        throw_invalid(place, "the lower arms must reach the sleeve at inclination 0; they have",
+                      d.lower_arm);
+}
+
+inline GovernorPoint SleeveGovernor::at(double inclination, std::optional<double> turned) const {
+    using namespace detail;
+    constexpr std::string_view place = "SleeveGovernor::at";
+    require_finite(place, "inclination", inclination);
+    const GovernorData& d = data_;
+    const double s = std::sin(inclination), c = std::cos(inclination);
+    if (!(std::abs(inclination) < std::numbers::pi / 2) || !Motion::reaches(d, s))
+        throw_invalid(place, "the arms cannot reach this inclination", inclination);
+    const auto m = Motion::of<double>(d, s, c, Motion::start(d));
+    GovernorPoint p;
+    p.inclination = inclination, p.ball_radius = m.radius.value, p.lift = m.sleeve.value;
+    p.height = d.arm * c + (d.pivot_offset == 0 ? 0 : d.pivot_offset * c / s);
+    const auto speed = [&](double friction) {
+        // Both sides vanish in the axis: there the ratio is that of the next derivatives.
+        const bool still =
+            m.inertia.slope == 0 && m.potential.slope + friction * m.sleeve.slope == 0;
+        const double square =
+            still ? 2 * m.potential.bend / m.inertia.bend
+                  : 2 * (m.potential.slope + friction * m.sleeve.slope) / m.inertia.slope;
+        return square >= 0 ? std::sqrt(square) : std::numeric_limits<double>::quiet_NaN();
+    };
+    p.speed = turned.value_or(speed(0));
+    p.low_speed = speed(-d.friction), p.high_speed = speed(d.friction);
+    const double square = p.speed * p.speed;
+    double pull = m.potential.bend - square / 2 * m.inertia.bend;
+    p.stable = pull > 0;
+    if (std::isfinite(d.shaft_inertia) && m.inertia.slope != 0)
+        pull += square * m.inertia.slope * m.inertia.slope / (d.shaft_inertia + m.inertia.value);
+    const double moving =
+        d.balls * d.ball_mass * (m.radius.slope * m.radius.slope + m.ball.slope * m.ball.slope) +
+        d.sleeve_mass * m.sleeve.slope * m.sleeve.slope;
+    p.period = pull > 0 ? 2 * std::numbers::pi * std::sqrt(moving / pull)
+                        : std::numeric_limits<double>::quiet_NaN();
+    return p;
+}
+
+inline std::vector<GovernorPoint> SleeveGovernor::equilibria(double speed, bool* complete) const {
+    using namespace detail;
+    using I = Interval<double>;
+    require_not_negative("SleeveGovernor::equilibria", "speed", speed);
+    const GovernorData& d = data_;
+    const double from = Motion::start(d), square = speed * speed;
+    bool all = true;
+    std::vector<GovernorPoint> found;
+    const auto left = [&](const I& sine) {  // the derivative of the potential at this speed
+        const I cosine = sqrt(I(1.0) - revchain::square(sine));
+        const auto m = Motion::of<I>(d, sine, cosine, from);
+        const I half(square / 2);
+        return std::pair(m.potential.slope - half * m.inertia.slope,
+                         m.potential.bend - half * m.inertia.bend);
+    };
+    const auto exact = [&](double angle) {
+        const auto m = Motion::of<double>(d, std::sin(angle), std::cos(angle), from);
+        return std::pair(m.potential.slope - square / 2 * m.inertia.slope,
+                         m.potential.bend - square / 2 * m.inertia.bend);
+    };
+    // The balls stay on their side of the axis.
+    const double least = std::clamp(-d.pivot_offset / d.arm, -1.0, 1.0) + 0.0;
+    const auto search = [&](const auto& self, double low, double high, int depth) -> void {
+        const bool reaches_low = Motion::reaches(d, low), reaches_high = Motion::reaches(d, high);
+        if (!reaches_low && !reaches_high && depth > 4) return;
+        const double middle = low + (high - low) / 2;
+        const double width = high - low;
+        if (depth > 48 || (depth > 30 && !(Motion::reaches(d, low - 2 * width) &&
+                                           Motion::reaches(d, high + 2 * width)))) {
+            if (depth > 48 && reaches_low && reaches_high) all = false;
+            return;  // the lower links are straight across: their pull has no bound there
+        }
+        if (reaches_low && reaches_high) {
+            const auto [force, stiffness] = left({low, high});
+            if (!force.may_vanish()) return;
+            if (!stiffness.may_vanish()) {
+                const double a = std::asin(low), b = std::asin(high);
+                const double at_low = exact(a).first, at_high = exact(b).first;
+                if (at_low * at_high > 0 || (at_high == 0 && high < 1)) return;  // in the next cell
+                const double sign = stiffness.positive() ? 1 : -1;
+                const auto rising = [&](double x) {
+                    const auto [value, slope] = exact(x);
+                    return std::pair(sign * value, sign * slope);
+                };
+                const double angle = at_low == 0 ? a : zero_between(a, b, rising);
+                if (std::abs(angle) < std::numbers::pi / 2) found.push_back(at(angle + 0.0, speed));
+                return;
+            }
+        }
+        self(self, low, middle, depth + 1), self(self, middle, high, depth + 1);
+    };
+    search(search, least, 1.0, 0);
+    if (complete != nullptr) *complete = all;
+    return found;
+}
+
+inline GovernorEffort SleeveGovernor::effort(double inclination, double change) const {
+    using namespace detail;
+    require_positive("SleeveGovernor::effort", "change", change);
+    const GovernorPoint now = at(inclination);
+    const GovernorData& d = data_;
+    const auto m =
+        Motion::of<double>(d, std::sin(inclination), std::cos(inclination), Motion::start(d));
+    GovernorEffort result;
+    // The force that holds the sleeve at the new speed; it falls to 0 while the sleeve is lifted.
+    result.effort = now.speed * now.speed * (change + change * change / 2) * m.inertia.slope /
+                    (2 * m.sleeve.slope);
+    result.lift = result.power = std::numeric_limits<double>::quiet_NaN();
+    for (const GovernorPoint& next : equilibria((1 + change) * now.speed))
+        if (next.stable && next.inclination > inclination) {
+            result.lift = next.lift - now.lift, result.power = result.effort * result.lift;
+            break;
+        }
+    return result;
+}
+
+}  // namespace revchain

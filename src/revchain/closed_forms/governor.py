@@ -1,0 +1,234 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Centrifugal governors with a sleeve: Watt's, Porter's, Hartnell's.
+
+Angles are in radians. Units are SI: masses in kg, forces in N.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .. import _core
+from ..results.base import Field
+from ..results.sheet import Column, Sheet
+from ..systems.numbers import STANDARD_GRAVITY, floats, numbers, one_positive, real
+from .motions import Solved
+from .table import FloatOrArray, described
+
+__all__ = ["GovernorEffort", "GovernorPoints", "SleeveGovernor"]
+_STOPS = ("lowest_inclination", "highest_inclination")
+_ROWS = 9  # of the table
+
+
+class GovernorPoints(NamedTuple):
+    """A governor at one or more inclinations of its arms, from the downward vertical outwards.
+
+    `inclination`: of the arms, rad. `angular_speed`: of equilibrium, rad/s; NaN if there is none. `low_speed`, `high_speed`:
+    between these friction holds the sleeve. `ball_radius`: distance of the balls from the axis, m. `height`: from the balls up
+    to where their arms meet the axis, m. `lift`: of the sleeve, from inclination 0, m. `stable`: whether a higher speed lifts the
+    sleeve farther. `period`: of small oscillations, s; NaN if they grow.
+    """
+
+    inclination: FloatOrArray
+    angular_speed: FloatOrArray
+    low_speed: FloatOrArray
+    high_speed: FloatOrArray
+    ball_radius: FloatOrArray
+    height: FloatOrArray
+    lift: FloatOrArray
+    stable: bool | NDArray[np.bool_]
+    period: FloatOrArray
+
+
+class GovernorEffort(NamedTuple):
+    """How a governor answers a change of speed.
+
+    `effort`: mean force at the sleeve while it is lifted, N. `lift`: of the sleeve to its new place, m; NaN if there is none.
+    `power`: effort times lift, J.
+    """
+
+    effort: float
+    lift: float
+    power: float
+
+
+def _speed(name: str) -> Any:
+    return lambda governor: float(governor._at_stops[name])
+
+
+@described(cost="1 microsecond for each point, 20 for the equilibria at a speed", source="section 7; Watt (1788), Porter (1858), Hartnell (1872)")
+class SleeveGovernor(Solved, row="point"):
+    """A governor whose balls lift a sleeve on a turning shaft, at any inclination of its arms.
+
+    With only ball and arm it is a conical pendulum, or several.
+
+    ball_mass: Mass of each ball, kg
+    arm: Distance from the pivot of an arm to its ball, m
+    balls: Number of balls
+    pivot_offset: Distance of the pivots from the axis, m; negative if the arms cross
+    lower_arm: Length of the links that carry the sleeve, m
+    joint: Distance from the pivot to the joint of the lower link, m; 0: at the ball
+    sleeve_offset: Distance of the lower links' pivots from the axis, m
+    sleeve_arm: Hartnell: levers with the ball on one arm and the sleeve at the other, of this length, at right angles;
+        instead of `lower_arm`. Inclination 0 is then the ball's arm upright
+    sleeve_mass: Mass of the sleeve, kg
+    spring_stiffness: Stiffness of a spring that presses the sleeve down, N/m
+    spring_force: Force of that spring at inclination 0, N
+    friction: Force with which the sleeve resists, either way, N
+    shaft_inertia: Moment of inertia of a shaft that turns freely, kg m^2; infinite: its speed is held
+    lowest_inclination: Inclination at the lower stop, rad, or a text such as "25 deg"
+    highest_inclination: Inclination at the upper stop
+    raises: If a number is out of its range or not finite; if lower links do not reach the sleeve, a sleeve or spring has
+        nothing to be carried by, or only one stop is given.
+    notes: The speeds follow from the energies: n^2 = 2 V'/J'. Accuracy, measured against the forces in the links on 10,000
+        random governors: 1e-12 of the square of the speed.
+
+    >>> import math
+    >>> watt = rc.SleeveGovernor(ball_mass=4.0, arm=1.4, lower_arm=1.4, sleeve_mass=3.0, gravity=12.0)
+    >>> hanging, open = watt.equilibria(5.0)
+    >>> round(math.cos(open.inclination), 12), round(open.period / math.pi, 12), open.stable
+    (0.6, 0.7, True)
+    """
+
+    __slots__ = ()
+    _solver = _core.SleeveGovernor
+    _optional = _STOPS
+    lowest_speed: Field[float] = Field("Speed of equilibrium at the lower stop, rad/s; NaN without stops.", _speed("lowest_speed"))
+    highest_speed: Field[float] = Field("Speed of equilibrium at the upper stop, rad/s; NaN without stops.", _speed("highest_speed"))
+    lift: Field[float] = Field("Lift of the sleeve between the stops, m.", _speed("lift"))
+    sensitiveness: Field[float] = Field(
+        "Difference of the speeds at the stops over their mean: small in a sensitive governor, 0 in an isochronous one.",
+        lambda g: 2 * (g.highest_speed - g.lowest_speed) / (g.highest_speed + g.lowest_speed),
+    )
+    insensitiveness: Field[float] = Field(
+        "Width of the band of speeds in which friction holds the sleeve, over the mean speed, at the middle between the stops.",
+        _speed("insensitiveness"),
+    )
+
+    def __init__(
+        self, *, ball_mass: float, arm: float, balls: int = 2, pivot_offset: float = 0.0, lower_arm: float = 0.0,
+        joint: float = 0.0, sleeve_offset: float = 0.0, sleeve_arm: float = 0.0, sleeve_mass: float = 0.0,
+        spring_stiffness: float = 0.0, spring_force: float = 0.0, friction: float = 0.0, shaft_inertia: float = math.inf,
+        lowest_inclination: float | None = None, highest_inclination: float | None = None,
+        gravity: float = STANDARD_GRAVITY,
+    ) -> None:
+        self._solve(locals())
+        low, high = (self._given[name] for name in _STOPS)
+        if (low is None) != (high is None):
+            raise ValueError("revchain.SleeveGovernor: give both lowest_inclination and highest_inclination, or neither")
+        if low is not None:
+            if not low < high:
+                raise ValueError(f"revchain.SleeveGovernor: lowest_inclination must be below highest_inclination, got {low:g} and {high:g}")
+            self.at([low, high])
+
+    def _from_parts(self) -> Any:
+        given = {name: value for name, value in self._given.items() if name not in _STOPS}
+        balls = given.pop("balls")
+        if not (1 <= balls <= 1000 and balls == int(balls)):
+            raise ValueError(f"revchain.SleeveGovernor: balls must be a whole number from 1 to 1000, got {balls:g}")
+        return self._solver(balls=int(balls), **given)
+
+    @property
+    def _at_stops(self) -> dict[str, float]:
+        low, high = (self._given[name] for name in _STOPS)
+        if low is None:
+            return dict.fromkeys(("lowest_speed", "highest_speed", "lift", "insensitiveness"), math.nan)
+        at = self.at([low, (low + high) / 2, high])
+        speed, slow, fast, lift = (np.asarray(x) for x in (at.angular_speed, at.low_speed, at.high_speed, at.lift))
+        return {
+            "lowest_speed": speed[0], "highest_speed": speed[2], "lift": lift[2] - lift[0],
+            "insensitiveness": (fast[1] - slow[1]) / speed[1],
+        }  # fmt: skip
+
+    @described()
+    def at(self, inclination: ArrayLike) -> GovernorPoints:
+        """Return speeds, places and periods at given inclinations.
+
+        inclination: Inclinations of the arms, rad, or texts such as "30 deg", any shape
+        raises: If the links cannot reach an inclination.
+
+        >>> porter = rc.SleeveGovernor(ball_mass=2.3, arm=0.33, lower_arm=0.33, sleeve_mass=9.5122, gravity=9.81)
+        >>> round(float(porter.at("27 deg").angular_speed) * 30 / 3.141592653589793, 4)
+        125.0
+        """
+        given = floats("revchain.SleeveGovernor.at", "inclination", inclination)
+        columns = self._found().at(given)
+        points = GovernorPoints(*numbers(columns))
+        return points._replace(stable=np.asarray(points.stable) > 0 if given.ndim else bool(points.stable))
+
+    @described()
+    def equilibria(self, angular_speed: float) -> list[GovernorPoints]:
+        """Return all equilibria at a speed, by inclination, with the balls on their own side of the axis.
+
+        Intervals prove that there are no others. Where they cannot, a ValueError says so.
+
+        angular_speed: Speed of the shaft in rad/s, or a text such as "300 rpm"; not negative
+        returns: The points. Their `angular_speed` is the given one.
+
+        >>> pendulum = rc.SleeveGovernor(ball_mass=1.0, arm=1.0, gravity=9.81)
+        >>> [(round(float(at.inclination), 4), at.stable) for at in pendulum.equilibria(4.0)]
+        [(0.0, False), (0.9108, True)]
+        """
+        caller = "revchain.SleeveGovernor.equilibria"
+        found, complete = self._found().equilibria(real(caller, "angular_speed", angular_speed))
+        if not complete:
+            raise ValueError(f"{caller}: two equilibria are too close to be told apart at angular_speed {angular_speed}")
+        made: list[Any] = [[*row[:7], bool(row[7]), row[8]] for row in found.tolist()]
+        return [GovernorPoints(*point) for point in made]
+
+    @described()
+    def effort(self, inclination: float, change: float = 0.01) -> GovernorEffort:
+        """Return the effort and the power for a speed that rises from the equilibrium at an inclination.
+
+        inclination: Inclination of the arms, rad
+        change: Fraction by which the speed rises
+
+        >>> porter = rc.SleeveGovernor(ball_mass=2.3, arm=0.33, lower_arm=0.33, sleeve_mass=9.5122, gravity=9.81)
+        >>> answer = porter.effort("27 deg")
+        >>> round(answer.effort, 3), round(answer.lift, 5), round(answer.power, 5)
+        (1.165, 0.01159, 0.01349)
+        """
+        caller = "revchain.SleeveGovernor.effort"
+        return GovernorEffort(
+            *self._found().effort(real(caller, "inclination", inclination), one_positive(caller, "change", change))
+        )
+
+    def _sheet(self, brief: bool = False) -> Sheet:
+        low, high = (self._given[name] for name in _STOPS)
+        if low is None:
+            low, high = 0.0, math.nan
+            for end in np.radians(np.arange(85.0, 0.0, -5.0)):
+                try:
+                    self.at(end)
+                except ValueError:
+                    continue
+                high = float(end)
+                break
+        at = self.at(np.linspace(low, high, _ROWS))
+        rpm = 30 / math.pi
+        columns = [
+            Column("inclination", at.inclination, "inclination (°)", 5, shown=np.degrees(at.inclination), unit="rad"),
+            Column("angular_speed", at.angular_speed, "speed (rad/s)", 6, unit="rad/s"),
+            Column("rpm", np.asarray(at.angular_speed) * rpm, "speed (rpm)", 6),
+            Column("lift", at.lift, "lift (m)", 5, unit="m"),
+            Column("ball_radius", at.ball_radius, "balls off axis (m)", 5, unit="m"),
+            Column("stable", at.stable, "stable"),
+            Column("period", at.period, "period (s)", 5, unit="s"),
+            Column("low_speed", at.low_speed, "", unit="rad/s"),
+            Column("high_speed", at.high_speed, "", unit="rad/s"),
+        ]
+        if self._given["friction"]:
+            columns[3:3] = [
+                Column("low_rpm", np.asarray(at.low_speed) * rpm, "falls at (rpm)", 6),
+                Column("high_rpm", np.asarray(at.high_speed) * rpm, "rises at (rpm)", 6),
+            ]
+        facts = self._facts()
+        heading = "SleeveGovernor"
+        if self._given["lowest_inclination"] is not None:
+            heading += f": lift {self.lift:.4g} m, sensitiveness {100 * self.sensitiveness:.3g} %"
+            facts |= {name: getattr(self, name) for name in ("lowest_speed", "highest_speed", "lift", "sensitiveness")}
+        return Sheet("point", heading, columns, facts)

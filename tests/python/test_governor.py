@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Governors with a sleeve: numbers of text books, laws, tables and what is refused. Speeds by the forces in the links:
+tests/cpp/sleeve_governor.cpp."""
+
+import math
+import pickle
+
+import mpmath as mp
+import numpy as np
+import pytest
+from exact import near
+
+import revchain as rc
+
+WATT = {"ball_mass": 4.0, "arm": 1.4, "lower_arm": 1.4, "sleeve_mass": 3.0, "gravity": 12.0}
+HARTNELL = {
+    "ball_mass": 1.5, "arm": 0.12, "pivot_offset": 0.12, "sleeve_arm": 0.06, "sleeve_mass": 2.0, "spring_stiffness": 5000.0,
+    "spring_force": 150.0, "friction": 5.0, "lowest_inclination": -0.2, "highest_inclination": 0.3,
+}  # fmt: skip
+
+
+def test_watt_and_porter():
+    hanging, open_ = rc.SleeveGovernor(**WATT).equilibria(5.0)
+    assert math.cos(open_.inclination) == near(0.6, rel=3e-16) and open_.period == near(0.7 * math.pi, rel=1e-15)
+    assert (hanging.stable, open_.stable, hanging.inclination) == (False, True, 0.0)
+    light = rc.SleeveGovernor(**WATT, shaft_inertia=0.0).equilibria("5 rad/s")[1]
+    assert light.period / math.pi == near(0.388, rel=1e-3)
+    porter = rc.SleeveGovernor(ball_mass=2.3, arm=0.33, lower_arm=0.33, sleeve_mass=9.5122, gravity=9.81)
+    assert porter.at("27 deg").angular_speed * 30 / math.pi == near(125.0, rel=1e-6)
+    unequal = rc.SleeveGovernor(ball_mass=30 / 9.81, arm=0.2, lower_arm=0.25, sleeve_mass=225 / 9.81, gravity=9.81)
+    assert unequal.at(["30 deg", "40 deg"]).angular_speed == near([20.7264, 21.8109], rel=2.4e-6)
+
+
+@pytest.mark.parametrize("inertia", [math.inf, 0.0, 7.0])
+def test_watts_periods_in_40_digits(inertia):
+    """From the second derivative of the energy: at constant speed, or at constant angular momentum."""
+    with mp.workdps(40):
+        m, M, l, g, n = (mp.mpf(x) for x in ("4", "3", "1.4", "12", "5"))
+        angle = mp.acos(mp.mpf("0.6"))
+
+        def turning(x):
+            return 2 * m * (l * mp.sin(x)) ** 2
+
+        momentum = n * (inertia + turning(angle)) if inertia < math.inf else mp.mpf(0)
+
+        def energy(x):
+            height = -2 * m * g * l * mp.cos(x) - 2 * M * g * l * mp.cos(x)
+            if inertia == math.inf:
+                return height - n**2 * turning(x) / 2
+            return height + momentum**2 / (2 * (inertia + turning(x)))
+
+        moving = 2 * m * l**2 + M * (2 * l * mp.sin(angle)) ** 2
+        period = 2 * mp.pi * mp.sqrt(moving / mp.diff(energy, angle, 2))
+    found = rc.SleeveGovernor(**WATT, shaft_inertia=inertia).equilibria(5.0)[1]
+    assert found.period == near(float(period), rel=1e-14)
+
+
+def test_the_stops_of_hartnells_governor(tmp_path):
+    governor = rc.SleeveGovernor(**HARTNELL)
+    at = governor.at([-0.2, 0.05, 0.3])
+    assert (governor.lowest_speed, governor.highest_speed) == (at.angular_speed[0], at.angular_speed[2])
+    assert governor.sensitiveness == near(2 * (at.angular_speed[2] - at.angular_speed[0]) / (at.angular_speed[2] + at.angular_speed[0]), rel=1e-15)
+    assert governor.lift == near(0.06 * (math.sin(0.3) + math.sin(0.2)), rel=1e-14)
+    assert governor.insensitiveness == near((at.high_speed[1] - at.low_speed[1]) / at.angular_speed[1], rel=1e-14)
+    assert (at.low_speed < at.angular_speed).all() and (at.angular_speed < at.high_speed).all() and at.stable.all()
+    text = str(governor)
+    assert "lift 0.02965 m, sensitiveness 9.84 %" in text and "rises at (rpm)" in text and "inclination (°)" in text
+    assert governor.to_dict()["points"][0]["angular_speed"] == at.angular_speed[0]
+    assert pickle.loads(pickle.dumps(governor)) == governor
+    governor.save(tmp_path / "governor.npz")
+    assert rc.load(tmp_path / "governor.npz") == governor
+    assert governor.plot(speed="rad/s").get_ylabel() == "lift of the sleeve (m)"
+    assert rc.SleeveGovernor(ball_mass=1.0, arm=1.0).plot().get_ylabel() == "balls off the axis (m)"
+
+
+def test_without_a_sleeve_it_is_a_conical_pendulum():
+    speed = np.array([3.5, 5.0, 9.0])
+    pendulum = rc.SleeveGovernor(ball_mass=3.0, arm=1.0, balls=1)
+    heights = [pendulum.equilibria(n)[1].height for n in speed]
+    assert heights == near(rc.conical_pendulum.height(speed), rel=4e-16)
+    (rest,) = pendulum.equilibria(0.0)
+    assert rest.stable and rest.period == near(2 * math.pi * math.sqrt(1 / 9.80665), rel=4e-16)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"sleeve_mass": 1.0}, "sleeve mass needs a sleeve"),
+        ({"lower_arm": 1.0, "sleeve_arm": 1.0}, "give lower_arm or sleeve_arm, not both"),
+        ({"balls": 1.5}, "balls must be a whole number from 1 to 1000"),
+        ({"lowest_inclination": 0.1}, "give both lowest_inclination and highest_inclination"),
+        ({"lowest_inclination": 0.3, "highest_inclination": 0.1}, "must be below highest_inclination"),
+        ({"lowest_inclination": 0.3, "highest_inclination": 2.1}, "cannot reach this inclination"),
+        ({"ball_mass": -1.0}, "ball mass"),
+        ({"arm": math.nan}, "arm"),
+        ({"shaft_inertia": -1.0}, "shaft inertia must not be negative"),
+    ],
+)
+def test_what_is_refused(given, words):
+    with pytest.raises(ValueError, match=words):
+        rc.SleeveGovernor(**({"ball_mass": 1.0, "arm": 1.0} | given))
+
+
+def test_calls_that_are_refused():
+    governor = rc.SleeveGovernor(**WATT)
+    for ask, words in (
+        (lambda: governor.at(1.6), "cannot reach"),
+        (lambda: governor.equilibria(-1.0), "speed"),
+        (lambda: governor.effort(0.5, 0.0), "change must be positive"),
+        (lambda: governor.at("3 kg"), "must be an angle"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            ask()
