@@ -99,15 +99,16 @@ py::tuple forced_motion(const Rig& rig, const Array& speeds, double radius, doub
 
 py::tuple transient(const Rig& rig, const std::optional<ComplexArray>& offsets,
                     const std::optional<ComplexArray>& velocities, const Array& time, const std::string& given,
-                    const Array& motion_time, const Array& motion, double gravity) {
+                    const Array& motion_time, const Array& motion, bool rests, double gravity) {
     using Given = revchain::SupportMotion::Given;
     const std::pair<const char*, Given> kinds[] = {{"acceleration", Given::acceleration},
                                                    {"velocity", Given::velocity},
                                                    {"offset", Given::offset},
                                                    {"force", Given::force}};
-    revchain::TransientOptions options{.time = as_vector(time),
-                                       .motion = {.time = as_vector(motion_time), .value = as_vector(motion)},
-                                       .gravity = gravity};
+    revchain::TransientOptions options{
+        .time = as_vector(time),
+        .motion = {.time = as_vector(motion_time), .value = as_vector(motion), .rests = rests},
+        .gravity = gravity};
     for (const auto& [name, kind] : kinds)
         if (given == name) options.motion.given = kind;
     if (offsets) options.offset = column(*offsets);
@@ -136,5 +137,5 @@ void bind_response(py::module_& module) {
     module.def("forced_motion", &forced_motion, "rig"_a, "speeds"_a, "radius"_a, "acceleration"_a, "force"_a,
                "gravity"_a, "threads"_a = 1);
     module.def("transient", &transient, "rig"_a, "offsets"_a, "velocities"_a, "time"_a, "given"_a, "motion_time"_a,
-               "motion"_a, "gravity"_a);
+               "motion"_a, "rests"_a, "gravity"_a);
 }

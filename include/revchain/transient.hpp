@@ -18,19 +18,22 @@
 ///     const SupportMotion braking{SupportMotion::Given::velocity, {0.0, 1.5}, {0.8, 0.0}};  // s, m/s
 ///     const auto t = revchain::transient(
 ///         rig, {.time = {0.0, 1.5, 3.0}, .motion = braking, .gravity = 9.81});
-///     t.offset(1, 1);     // 0.6 m: the trolley stops here
-///     t.sway[0];          // 0.21261 m: by so much the load swings about this place
+///     t.offset(1, 1).real();  // 0.6 m: the trolley stops here
+///     t.sway[0];              // 0.21261 m: by so much the load swings about this place
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// A prescribed motion of the support, or a force on it, in time. Times ascend; between two of them
-/// velocities, accelerations and forces are straight lines, offsets a cubic spline (the first and
-/// the last two pieces are one cubic). Two equal times are a jump; offsets may not jump. A support
-/// that has a spring is moved at the far end of the spring, any other itself.
+/// velocities, accelerations and forces are straight lines, offsets a cubic spline. Two equal times
+/// are a jump of accelerations or forces. A support that has a spring is moved at the far end of the
+/// spring, any other itself.
 struct SupportMotion {
     enum class Given { acceleration, velocity, offset, force };
     Given given = Given::acceleration;
     std::vector<double> time{};   ///< >= 0; before the first and after the last no acceleration
     std::vector<double> value{};  ///< for each time. The first offset is 0 unless offsets are given
+    /// Of offsets: whether the support rests before the first time and after the last. Otherwise the
+    /// first two pieces are one cubic, as the last two, and it goes on with the velocities there.
+    bool rests = true;
 };
 
 struct TransientOptions {
@@ -48,8 +51,9 @@ struct Transient {
     Table<std::complex<double>> velocity;  ///< (times, N+1)
     Vector<double> error_estimate;         ///< (times,) of every offset; not proved
     double end = 0;  ///< the time at which the prescribed motion is over, or 0
-    Vector<double>
-        sway{};  ///< (N+1) largest distance of each pin from its resting place since then
+    /// (N+1) since then, the largest distance of each pin from below the support, to 1 %, and of the
+    /// support from its resting place; infinite if the motion grows
+    Vector<double> sway{};
     Vector<std::complex<double>> exponent{};  ///< (k,) of the motions, see `damped_modes`
     Table<std::complex<double>> shape{};      ///< (k, N+1)
     /// (k,) Since the end, offsets from the resting place are the sum of amplitude shape
@@ -72,7 +76,8 @@ struct Transient {
 /// Cost: `damped_modes` once, then 20 ns for each link, motion and time.
 /// Throws InvalidArgument for starts not finite or of another length, a start of a support that is
 /// moved by hand, times that are negative or do not ascend, a motion with fewer than two times or
-/// that jumps in place, a force on a firm support, a fluid that turns, more than 1000 links.
+/// that jumps in place or grows beyond all numbers, a force on a firm support, a fluid that turns,
+/// more than 1000 links.
 REVCHAIN_DECLARE
 [[nodiscard]] Transient transient(const Rig& rig, const TransientOptions& options);
 

@@ -9,11 +9,11 @@ Revolving Chain" (1908).
 Systems
     Chain, Rig (with Support, Pin, Flywheel, Displaced), Cord, Held; SupportMotion
 Questions
-    modes, count_modes, steady_shapes, steady_shape, branches, branch, response, swing, tune, fit, explain;
+    modes, count_modes, steady_shapes, steady_shape, branches, branch, response, swing, campbell, tune, fit, explain;
     conical_heights for many chains at once
 Results
     Modes, SteadyShapes, SteadyShape, Branches, Branch,
-    Stability, ForceDiagram, Response, Swing, Tuned, Fitted, Explanation, Sensitivity, Uncertainty; ``load`` reads the
+    Stability, ForceDiagram, Response, Swing, Campbell, Tuned, Fitted, Explanation, Sensitivity, Uncertainty; ``load`` reads the
     files that their method ``save`` wrote. Variants of these, and classes of their fields, are in the reference.
 Closed forms
     conical_pendulum, plummet, two_links, elliptic, hoop, bell_and_clapper, funicular_polygon, transverse_modes,
@@ -51,6 +51,7 @@ from typing import Any as _Any
 from .questions.batch import conical_heights as conical_heights
 from .questions.branches import branch as branch
 from .questions.branches import branches as branches
+from .questions.campbell import campbell as campbell
 from .questions.explain import explain as explain
 from .questions.fit import fit as fit
 from .questions.modes import count_modes as count_modes
@@ -63,6 +64,7 @@ from .questions.swing import swing as swing
 from .questions.tune import tune as tune
 from .results.branches import Branch as Branch
 from .results.branches import Branches as Branches
+from .results.campbell import Campbell as Campbell
 from .results.diagrams import ForceDiagram as ForceDiagram
 from .results.explanation import Explanation as Explanation
 from .results.fitted import Fitted as Fitted

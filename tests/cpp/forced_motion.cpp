@@ -136,4 +136,6 @@ TEST_CASE("what forced motion refuses", "[linear]") {
     CHECK_THROWS_WITH(forced_motion(rig, {.angular_speed = {-1}, .radius = 1}), Contains("angular speed"));
     CHECK_THROWS_WITH(forced_motion(rig, {.angular_speed = {0}, .radius = 1}), Contains("angular speed"));
     CHECK_THROWS_WITH(forced_motion(rig, {.radius = 1, .gravity = 0}), Contains("gravity"));
+    CHECK_THROWS_WITH(forced_motion(rig, {.angular_speed = {1e200}, .radius = 1}), Contains("that far from the rig's own"));
+    CHECK_THROWS_WITH(forced_motion(rig, {.angular_speed = {1}, .radius = 1e300}), Contains("too large"));
 }

@@ -305,7 +305,7 @@ TEST_CASE("places in time: a spline, of a sine within its fourth power of the st
     const Rig rig(Chain<double>({plummet(9.81, 1.0)}), {});
     double before = 0;
     for (const int n : {20, 40, 80}) {
-        SupportMotion motion{Given::offset, {}, {}};
+        SupportMotion motion{Given::offset, {}, {}, false};
         for (int k = 0; k <= n; ++k) {
             motion.time.push_back(4.0 * k / n);
             motion.value.push_back(0.1 * std::sin(2 * motion.time.back()));
@@ -322,6 +322,51 @@ TEST_CASE("places in time: a spline, of a sine within its fourth power of the st
         before = off;
         CHECK(std::abs(found.offset(0, 1) - motion.value.back()) <= 1e-15);
     }
+}
+
+TEST_CASE("places in time: at rest before the first and after the last", "[linear]") {
+    const Rig rig(Chain<double>({plummet(9.81, 1.0)}), {});
+    for (const int n : {2, 3, 30}) {
+        SupportMotion motion{Given::offset, {}, {}};
+        for (int k = 0; k < n; ++k) {
+            motion.time.push_back(1 + 2.0 * k / (n - 1));
+            motion.value.push_back((1 - std::cos(M_PI * k / (n - 1))) / 2);
+        }
+        const auto found = transient(rig, {.time = {0, 1, 1.7, 3, 10}, .motion = motion, .gravity = 9.81});
+        for (const Index i : {0, 1}) CHECK(std::abs(found.offset(i, 1)) + std::abs(found.velocity(i, 1)) <= 1e-15);
+        for (const Index i : {3, 4}) CHECK(std::abs(found.offset(i, 1) - 1.0) + std::abs(found.velocity(i, 1)) <= 2e-15);
+        CHECK(std::abs(found.offset(2, 1) - (1 - std::cos(M_PI * 0.35)) / 2) <= (n == 30 ? 3e-6 : 0.03));
+    }
+}
+
+TEST_CASE("sway is what is seen: heavy and critical damping, trolleys that coast, motions that grow", "[linear]") {
+    const double g = 9.80665, critical = 2 * std::sqrt(g);
+    std::vector<double> time;
+    for (int i = 0; i <= 20000; ++i) time.push_back(1 + 0.001 * i);
+    const SupportMotion start{Given::velocity, {0, 1}, {1, 0}};
+    for (const double z : {0.01, 0.3, 0.9, 0.99, 0.999999, 1.0, 1.5, 20.0}) {
+        const Rig rig(Chain<double>({plummet(1.0, 1.0)}), {.pins = {{.damping = z * critical / g}}});
+        const auto found = transient(rig, {.time = time, .motion = start});
+        const double seen = (found.offset.col(0) - found.offset.col(1)).cwiseAbs().maxCoeff();
+        CAPTURE(z, seen, found.sway[0], found.in_modes);
+        CHECK(found.sway[0] >= seen * 0.99);
+        CHECK(found.sway[0] <= seen * (z < 0.05 ? 1.03 : 1.01));
+    }
+    for (const double damping : {1e-6, 1e-3, 1.0}) {
+        const Rig trolley(Chain<double>({plummet(4 * g, 2.0)}), {.support = {0.0, 10 * g, 0, damping}});
+        const auto found = transient(trolley, {.time = time, .motion = {Given::force, {0, 1, 2}, {0, 5, 0}}});
+        Vector<double> apart = (found.offset.col(0) - found.offset.col(1)).cwiseAbs();
+        CHECK(found.sway[0] <= 1.05 * apart.tail(19000).maxCoeff());
+        CHECK(found.sway[0] >= 0.98 * apart.tail(19000).maxCoeff());
+    }
+    const Rig upright(Chain<double>({plummet(1.0, 1.0)}), {.posture = {Posture::stands}});
+    CHECK(std::isinf(transient(upright, {.time = {0, 1}, .motion = start}).sway[0]));
+    CHECK_THROWS_WITH(transient(upright, {.time = {0, 1e4}, .motion = start}), Catch::Matchers::Contains("grows beyond all numbers"));
+    // undamped motions do not decay, and their phase is known as long as the estimate says
+    const Rig plain(Chain<double>({plummet(g, 2.0)}), {});
+    const auto late = transient(plain, {.time = {1, 1e60}, .motion = start});
+    CHECK(late.error_estimate[1] > 1);
+    CHECK(late.error_estimate[0] < 1e-14);
 }
 
 TEST_CASE("what motion in time refuses", "[linear]") {

@@ -78,12 +78,12 @@ def matrices(rig):
     )
 
 
-@pytest.mark.parametrize("kind", ["acceleration", "velocity", "offset"])
-def test_a_damped_double_pendulum_under_a_moving_support_against_integration(kind):
+@pytest.mark.parametrize(("kind", "rests"), [("acceleration", True), ("velocity", True), ("offset", True), ("offset", False)])
+def test_a_damped_double_pendulum_under_a_moving_support_against_integration(kind, rests):
     M, C, K, together = matrices(DAMPED)
     t = np.array([0.0, 0.4, 1.0, 1.9, 2.5])
     y = np.array([0.0, 0.3, -0.2, 0.1, 0.0])
-    motion = rc.SupportMotion(t, **{kind: y})
+    motion = rc.SupportMotion(t, **{kind: y}, rests=rests)
     start, times = np.array([0.05, -0.02, 0.0]), np.array([0.0, 0.7, 1.4, 2.5, 4.0])
     found = rc.swing(DAMPED, times, offset=start, velocity=[0.1, 0.0, 0.0] if kind == "acceleration" else None, support=motion,
                      gravity=G)  # fmt: skip
@@ -98,7 +98,7 @@ def test_a_damped_double_pendulum_under_a_moving_support_against_integration(kin
     else:
         from scipy.interpolate import CubicSpline
 
-        spline = CubicSpline(t, y)  # not-a-knot
+        spline = CubicSpline(t, y, bc_type="clamped" if rests else "not-a-knot")
         second = spline.derivative(2)
         def moved(s):
             return float(second(s)) if s < t[-1] else 0.0
@@ -161,6 +161,41 @@ def test_what_a_swing_in_time_is_made_of(tmp_path):
     rc.response(TROLLEY, angular_speed=[1.0, 2.0, 3.0], force=0.1).plot(speed="rpm")
     free = rc.swing(DAMPED, [0.0, 1.0], offset=[0.1, 0.0])
     assert "the free end sways by" in str(free) and free.motion_end == 0
+
+
+def test_sway_is_what_is_seen():
+    """Near critical damping, of a trolley that coasts, and of what falls."""
+    for ratio in (0.3, 0.999999, 1.0, 5.0):
+        rig = rc.Rig(rc.Chain(mass=1.0, length=1.0), pins=rc.Pin(damping=ratio * 2 * math.sqrt(9.80665)))
+        found = rc.swing(rig, np.linspace(1.0, 21.0, 20001), support=rc.SupportMotion([0.0, 1.0], velocity=[1.0, 0.0]))
+        assert found.residual_sway == near(found.largest_deflection.max(), rel=0.01)
+    trolley = rc.Rig(rc.Chain(mass=4.0, length=2.0), support=rc.Support(mass=10.0, damping=1e-6))
+    coasting = rc.swing(trolley, np.linspace(2.0, 22.0, 2001), support=rc.SupportMotion([0.0, 1.0, 2.0], force=[0.0, 5.0, 0.0]))
+    assert coasting.residual_sway == near(coasting.largest_deflection.max(), rel=0.01)
+    fallen = rc.swing(rc.Rig(CRANE, inverted=True), [0.0, 5.0], offset=[0.01, 0.0], support=stop())
+    assert math.isinf(fallen.residual_sway) and "the free end falls" in str(fallen)
+
+
+def test_flywheels_are_driven_round():
+    """To and fro is the mean of both signs of the speed."""
+    rig = rc.Rig(
+        rc.Chain(mass=[1.0, 2.0], length=[0.5, 1.0]), support=rc.Support(mass=5.0, stiffness=100.0, damping=5.0),
+        flywheels=rc.Flywheel(momentum=[0.2, 0.6]), pins=rc.Pin(damping=0.5),
+    )  # fmt: skip
+    both = rc.response(rig, angular_speed=[-3.0, 3.0], force=1.0)
+    assert "pushed round with 1 N" in str(both)
+    time = np.linspace(0.0, 120.0, 24001)
+    push = rc.SupportMotion(time, force=np.cos(3.0 * time))
+    late = rc.swing(rig, [119.2], support=push).offset[0]
+    steady = (both.offset * np.exp(1j * both.angular_speed * 119.2)[:, None]).mean(axis=0)
+    assert np.abs(late - steady).max() <= 1e-4 * np.abs(steady).max()
+
+
+def test_one_drive_on_the_command_line_replaces_another():
+    ask = {"response": {"angular_speed": 2.0, "force": "3 kN"}, "swing": {"support_time": [0, 1], "support_velocity": [1, 0]}}
+    scene = rc.Scene.from_dict({**SCENE, "support": {"mass": "1 t"}, "ask": ask})
+    assert scene.response(acceleration=0.5).force is None
+    assert scene.swing(support_acceleration=[1.0, 0.0], time=[2.0]).motion_end == 1.0
 
 
 def test_pushed_and_free_trolleys():
@@ -278,7 +313,7 @@ def test_scenes_move_their_supports():
         ({"swing": {"support_velocity": [0, 1]}}, "must be lists of one length"),
         ({"swing": {"support_time": [0, 1, 1], "support_velocity": [0, 1, 2]}}, "a support cannot jump"),
         ({"response": {"angular_speed": 1.0, "force": 1.0, "acceleration": 2.0}}, "does not go with acceleration"),
-        ({"response": {"angular_speed": 1.0, "force": 1.0}}, "a force does not move a firm support"),
+        ({"response": {"angular_speed": 1.0, "force": 1.0}}, "force needs a support that yields"),
     ],
 )
 def test_scenes_say_what_is_wrong(ask, words):
@@ -300,15 +335,19 @@ def stop(time=(0.0, 1.0), **given):
         (lambda: stop([1.0, 1.0]), "a support cannot jump, nor its velocity"),
         (lambda: stop([0.0, 1.0], offset=[0.0, math.nan]), "offset must be finite"),
         (lambda: stop([0.0, 1.0], offset=3.0), "offset must be a list of numbers"),
+        (lambda: stop([0.0, 1.0], velocity=[0.0, 1.0], rests=False), "rests=False goes with offsets"),
+        (lambda: rc.swing(rc.Rig(CRANE, inverted=True), [1e5], support=stop()), "grows beyond all numbers"),
+        (lambda: rc.response(DAMPED, angular_speed=1e200, acceleration=1.0), "that far from the rig's own"),
+        (lambda: rc.Pin(damping=[]), "must have a number for each link"),
         (lambda: rc.swing(CRANE, [-1.0], support=stop()), "time must not be negative"),
         (lambda: rc.swing(CRANE, [1.0], support=[0, 1]), "support must be a revchain.SupportMotion"),
         (lambda: rc.swing(CRANE, [1.0], support=stop(), count=1), "count must be left out"),
         (lambda: rc.swing(rc.Cord(1.0), [1.0], support=stop()), "use its chain"),
-        (lambda: rc.swing(CRANE, [1.0], support=stop(force=[1.0, 0.0])), "a force does not move a firm support"),
+        (lambda: rc.swing(CRANE, [1.0], support=stop(force=[1.0, 0.0])), "must not be a force on a firm support"),
         (lambda: rc.swing(CRANE, [1.0], offset=[0.0, 1.0], support=stop()), "leave out the offset of the support"),
         (lambda: rc.swing(DAMPED, [1.0], offset=[0.1j, 0.0]), "must be real"),
         (lambda: rc.response(CRANE, angular_speed=1.0, support_radius=1.0, force=2.0), "give one of support_radius"),
-        (lambda: rc.response(CRANE, angular_speed=1.0, force=2.0), "a force does not move a firm support"),
+        (lambda: rc.response(CRANE, angular_speed=1.0, force=2.0), "force needs a support that yields"),
         (lambda: rc.response(CRANE, angular_speed=1.0, acceleration=-2.0), "acceleration must be positive"),
     ],
 )

@@ -7,7 +7,7 @@ import math
 import mpmath as mp
 import numpy as np
 import pytest
-from rigs import G, Motion, rigged, small_motions
+from rigs import G, Motion, exponents, first_order, rigged, small_motions
 from scipy.integrate import solve_ivp
 from tier import by_tier
 
@@ -37,25 +37,6 @@ def shapes_of(rig, most=4):
     assert len(found)
     step = max(1, len(found) // most)
     return found[::step][:most]
-
-
-def first_order(motions, friction=0.0, drag=0.0):
-    """The matrix of the damped motions, times in 1/n, in 40 digits."""
-    friction, drag = mp.mpf(float(friction)), mp.mpf(float(drag))
-    count, inverse = motions.inertia.rows, motions.inertia**-1
-    whole = mp.zeros(2 * count)
-    whole[:count, count:] = mp.eye(count)
-    whole[count:, :count] = -inverse * (motions.stiffness + drag * mp.matrix(motions.follow.tolist())) / motions.speed**2
-    rates = motions.turn + friction * mp.matrix(motions.friction.tolist()) + drag * mp.matrix(motions.drag.tolist())
-    whole[count:, count:] = -inverse * rates / abs(motions.speed)
-    return whole
-
-
-def exponents(motions, **damping):
-    """Of small motions, over the speed, less those of a support all but without mass."""
-    with mp.workdps(40):
-        found = mp.eig(first_order(motions, **damping), left=False, right=False)
-        return [s for s in found if abs(s) < 1e5]
 
 
 @pytest.mark.parametrize("frame", ["free", "driven"])

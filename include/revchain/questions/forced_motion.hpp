@@ -146,6 +146,13 @@ ForcedMotion forced_motion(const Rig& rig, const ForcedMotionOptions& options) {
                                                             ? -(S(options.acceleration) / n / n)
                                                             : S(radius),
                                                         -length);
+            const double pace = std::abs((n / of.pace).high);
+            if (!(pace > 0x1p-250 && pace < 0x1p250))
+                throw_invalid("forced_motion", "speeds must not be that far from the rig's own",
+                              n.high);
+            if (!(std::abs(amount.high) < 0x1p500))
+                throw_invalid("forced_motion", "the drive is too large for its unit; it has",
+                              amount.high);
             const Forced found = forced_at(at, n / of.pace, amount);
             const bool resonant = !(found.error < 0.25);
             result.resonant[static_cast<std::size_t>(row)] = resonant ? 1 : 0;

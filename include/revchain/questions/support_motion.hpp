@@ -23,35 +23,38 @@ struct MotionPiece {
     }
 };
 
-/// Returns the second derivatives at both ends of each piece of the cubic spline through points. Its
-/// third derivative does not jump at the second and at the last but one. Cost O(n).
+/// Returns the second derivatives of the cubic spline through points, which begins and ends at rest
+/// or else whose third derivative does not jump at the second and at the last but one. Cost O(n).
 REVCHAIN_LAZY
-std::vector<double> spline_curvatures(const std::vector<double>& x, const std::vector<double>& y) {
+std::vector<double> spline_curvatures(const std::vector<double>& x, const std::vector<double>& y,
+                                      bool rests) {
     const std::size_t n = x.size();
-    std::vector<double> curvature(n, 0.0);
-    if (n < 3) return curvature;
     std::vector<double> h(n - 1), slope(n - 1);
     for (std::size_t k = 0; k + 1 < n; ++k)
         h[k] = x[k + 1] - x[k], slope[k] = (y[k + 1] - y[k]) / h[k];
-    if (n == 3) {
-        const double one = 2 * (slope[1] - slope[0]) / (h[0] + h[1]);
-        return {one, one, one};
-    }
-    // Unknowns are the inner curvatures; the outer ones are on the lines through their neighbours.
-    std::vector<double> below(n), at(n), above(n), right(n);
+    if (!rests && n == 2) return {0, 0};
+    if (!rests && n == 3) return std::vector<double>(3, 2 * (slope[1] - slope[0]) / (h[0] + h[1]));
+    std::vector<double> below(n), at(n), above(n), right(n), curvature(n);
     for (std::size_t k = 1; k + 1 < n; ++k) {
         below[k] = h[k - 1], at[k] = 2 * (h[k - 1] + h[k]), above[k] = h[k];
         right[k] = 6 * (slope[k] - slope[k - 1]);
     }
-    const double first = h[0] / h[1], last = h[n - 2] / h[n - 3];
-    at[1] += h[0] * (1 + first), above[1] -= h[0] * first;
-    at[n - 2] += h[n - 2] * (1 + last), below[n - 2] -= h[n - 2] * last;
-    for (std::size_t k = 2; k + 1 < n; ++k) {
+    const double first = rests ? 0 : h[0] / h[1], last = rests ? 0 : h[n - 2] / h[n - 3];
+    if (rests) {
+        at[0] = 2 * h[0], above[0] = h[0], right[0] = 6 * slope[0];
+        at[n - 1] = 2 * h[n - 2], below[n - 1] = h[n - 2], right[n - 1] = -6 * slope[n - 2];
+    } else {  // the outer curvatures are on the lines through their neighbours
+        at[1] += h[0] * (1 + first), above[1] -= h[0] * first;
+        at[n - 2] += h[n - 2] * (1 + last), below[n - 2] -= h[n - 2] * last;
+    }
+    const std::size_t begin = rests ? 0 : 1, end = rests ? n : n - 1;
+    for (std::size_t k = begin + 1; k < end; ++k) {
         const double share = below[k] / at[k - 1];
         at[k] -= share * above[k - 1], right[k] -= share * right[k - 1];
     }
-    for (std::size_t k = n - 2; k > 0; --k)
-        curvature[k] = (right[k] - (k + 2 < n ? above[k] * curvature[k + 1] : 0.0)) / at[k];
+    for (std::size_t k = end; k-- > begin;)
+        curvature[k] = (right[k] - (k + 1 < end ? above[k] * curvature[k + 1] : 0.0)) / at[k];
+    if (rests) return curvature;
     curvature[0] = (1 + first) * curvature[1] - first * curvature[2];
     curvature[n - 1] = (1 + last) * curvature[n - 2] - last * curvature[n - 3];
     return curvature;
@@ -91,10 +94,11 @@ std::vector<MotionPiece> motion_pieces(std::string_view place, const SupportMoti
     std::vector<double> curvature;
     if (motion.given == Given::velocity) now.velocity = y[0];
     if (motion.given == Given::offset) {
-        curvature = spline_curvatures(t, y);
+        curvature = spline_curvatures(t, y, motion.rests);
         const double h = t[1] - t[0];
         now.offset = y[0];
-        now.velocity = (y[1] - y[0]) / h - h * (2 * curvature[0] + curvature[1]) / 6;
+        if (!motion.rests)
+            now.velocity = (y[1] - y[0]) / h - h * (2 * curvature[0] + curvature[1]) / 6;
     }
     std::vector<MotionPiece> pieces;
     if (t[0] > 0) pieces.push_back({0, 0, 0, now.offset - t[0] * now.velocity, now.velocity});
@@ -118,6 +122,7 @@ std::vector<MotionPiece> motion_pieces(std::string_view place, const SupportMoti
         if (motion.given == Given::velocity) now.velocity = y[k + 1];
     }
     now.begin = t[n - 1], now.value = now.slope = 0;
+    if (motion.given == Given::offset && motion.rests) now.velocity = 0;
     if (motion.given == Given::force) {
         for (MotionPiece& each : pieces) each.offset = each.velocity = 0;
         now.offset = now.velocity = 0;

@@ -130,7 +130,8 @@ class TransientMotion {
             last = t;
         }
         if (moved_ == Moved::by_force && rig_.support().is_firm())
-            throw_invalid(place, "a force does not move a firm support; links", rig_.size());
+            throw_invalid(place, "a force does not move a firm support: give a motion; links",
+                          rig_.size());
         const MotionPiece& first = pieces_.front();
         const double pace = static_cast<double>(pace_);
         q_ = rotations("offset", options_.offset, first.offset, length_);
@@ -195,7 +196,8 @@ class TransientMotion {
         for (const auto& each : motions_.motions) state.amplitude.push_back(each.start);
         const auto rows = static_cast<Index>(options_.time.size());
         const double unit = 8 * epsilon<double>() + motions_.defect;
-        double largest = 0, worst = 0;
+        double largest = 0, worst = 0, fastest = 0;
+        for (const auto& each : motions_.motions) fastest = std::max(fastest, std::abs(each.rate));
         Vector<Complex> y, v;
         double size = 0;
         Index row = 0;
@@ -219,14 +221,16 @@ class TransientMotion {
                 worst = std::max(worst, size);
                 add_support(piece, h, y, v);
                 result_.offset.row(row) = y.transpose(), result_.velocity.row(row) = v.transpose();
-                result_.error_estimate[row] =
-                    unit * size + epsilon<double>() * std::abs(support_at(piece, h));
+                if (!y.allFinite() || !v.allFinite())
+                    throw_invalid(place, "the motion grows beyond all numbers before this time", t);
+                const double turns = fastest * t * static_cast<double>(pace_);
+                result_.error_estimate[row] = (unit + 0x1p-96 * turns) * size +
+                                              epsilon<double>() * std::abs(support_at(piece, h));
                 advance(options_.progress, 0.5 + 0.5 * double(row + 1) / double(rows));
             }
             if (!is_last) state = at(pieces_[k + 1].begin);
         }
-        loss_ = motions_.all_found() ? unit * worst / std::max(largest, 1e-300) : 1;
-        if (largest == 0 && motions_.all_found()) loss_ = unit;
+        loss_ = !motions_.all_found() ? 1 : largest > 0 ? unit * worst / largest : unit;
         set_sway(state);
     }
     double support_at(const MotionPiece& piece, double h) const {
@@ -245,14 +249,13 @@ class TransientMotion {
     }
     /// The motions after the end, with amplitudes for shapes whose largest offset is 1.
     void set_sway(const State& state) {
-        const Index pins = rig_.size() + 1;
-        result_.sway = Vector<double>::Zero(pins);
+        result_.sway = motions_.largest_deflections(state.amplitude) * length_;
         std::vector<std::size_t> moving;
         for (std::size_t j = 0; j < motions_.motions.size(); ++j)
             if (motions_.motions[j].rate != Complex(0.0)) moving.push_back(j);
         const auto count = static_cast<Index>(moving.size());
         result_.exponent.resize(count), result_.amplitude.resize(count);
-        result_.shape.resize(count, pins);
+        result_.shape.resize(count, rig_.size() + 1);
         for (Index i = 0; i < count; ++i) {
             const std::size_t j = moving[static_cast<std::size_t>(i)];
             const auto& each = motions_.motions[j];
@@ -261,10 +264,7 @@ class TransientMotion {
             const Complex largest = each.shape[place_of_largest];
             result_.exponent[i] = static_cast<Complex>(each.s * C(pace_));
             result_.shape.row(i) = (each.shape / largest).transpose();
-            const Complex amplitude = state.amplitude[j] * largest * length_;
-            result_.amplitude[i] = amplitude * double(each.times);
-            result_.sway +=
-                each.times * std::abs(state.amplitude[j]) * each.shape.cwiseAbs() * length_;
+            result_.amplitude[i] = state.amplitude[j] * largest * length_ * double(each.times);
         }
     }
 
@@ -333,7 +333,7 @@ class TransientMotion {
             }
             if (!is_last) go(pieces_[k + 1].begin);
         }
-        sample_sway(begin, half);
+        if (!motions_.all_found()) sample_sway(begin, half);
     }
     /// Sets the largest offsets at 400 instants of three turns of the slowest motion.
     template <class T>
@@ -348,11 +348,10 @@ class TransientMotion {
             if (each.rate != Complex(0.0)) slowest = std::min(slowest, std::abs(each.rate));
         if (!std::isfinite(slowest)) slowest = 1;
         const std::vector<pencil::Polynomial<double>> none(2);
-        Vector<Complex> last = pins_of(state, 0);
-        result_.sway = last.cwiseAbs();
+        result_.sway = deflections(pins_of(state, 0)).cwiseAbs();
         for (int i = 0; i < 400; ++i) {
             state = steps.after(state, 20 / slowest / 400, none);
-            result_.sway = result_.sway.cwiseMax(pins_of(state, 0).cwiseAbs());
+            result_.sway = result_.sway.cwiseMax(deflections(pins_of(state, 0)).cwiseAbs());
         }
     }
     /// Offsets of all pins of the rotations that begin at `from`, in units of length.
@@ -384,7 +383,9 @@ REVCHAIN_DEFINE
 Transient transient(const Rig& rig, const TransientOptions& options) {
     detail::require_positive("transient", "gravity", options.gravity);
     if (rig.size() > 1000)
-        detail::throw_invalid("transient", "a rig may have at most 1000 links, not", rig.size());
+        detail::throw_invalid(
+            "transient", "with dashpots or a moving support there may be at most 1000 links; links",
+            rig.size());
     if (rig.support().radius != 0)
         detail::throw_invalid("transient",
                               "the support is carried round: use response; its radius is",

@@ -202,11 +202,11 @@ def _(found: Response, choices: Choices) -> Film:
     largest, most = _reach_of_small(height, 1), np.abs(offset).max(axis=1)
     scale = np.minimum(largest / np.quantile(most, 0.75), largest / most)
     if speed.size == 1:
-        label = "carried round"
+        label = "carried round" if found.force is None else "pushed"
         return _turning(found, [(label, offset[0], height, float(speed[0]), float(scale[0]))], choices)
     rows = np.broadcast_to(height, offset.shape)
     stages = _Stages(np.arange(speed.size, dtype=float), offset * scale[:, None] + 0j, rows, speed, scale)
-    return _swept(found, ["carried round"], [stages], choices, "largest distance from axis (m)", [most], "Speed")
+    return _swept(found, ["carried round" if found.force is None else "pushed"], [stages], choices, "largest distance from axis (m)", [most], "Speed")
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,7 @@ DRAWN_BY = {
     "Branches": "shapes.plot_branches",
     "Response": "response.plot_response",
     "Swing": "response.plot_swing",
+    "Campbell": "response.plot_campbell",
     "ForceDiagram": "closed_forms.plot_force_diagram",
     "FunicularPolygon": "closed_forms.plot_funicular_polygon",
     "SkippingRope": "closed_forms.plot_skipping_rope",

@@ -442,8 +442,11 @@ def _draw_support(support: Support, ax: Axes, straight: Straight, across: float)
         ax.plot([-1.0, wall if yields else across], [0.0, 0.0], **ARM)
     if yields:
         tall = float(np.ptp(level))
-        draw_spring(ax, wall, 0.0, tall)
-        ax.plot([wall, wall], [-0.03 * tall, 0.03 * tall], color="black", linewidth=2.5, zorder=4, clip_on=False)
+        if support.stiffness == 0:  # it rolls on a rail
+            ax.plot([-0.35, 0.35], [0.025 * tall] * 2, color=LINK, linewidth=1.5, clip_on=False)
+        else:
+            draw_spring(ax, wall, 0.0, tall)
+            ax.plot([wall, wall], [-0.03 * tall, 0.03 * tall], color="black", linewidth=2.5, zorder=4, clip_on=False)
         ax.plot(0.0, 0.0, marker="s", **{**SUPPORT, "markersize": 8.0 if support.carriage else 4.0})
     else:
         ax.plot(across, 0.0, marker="^" if straight.inverted.all() else "v", **SUPPORT)

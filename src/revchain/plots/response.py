@@ -17,6 +17,7 @@ from .style import AXIS, MOST_PINS_AS_DOTS, SpeedUnit, house, legend_outside, pi
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from ..results.campbell import Campbell
     from ..results.motions import Response, Swing
 
 MOST_CURVES = 4  # of pins, unless the caller chooses them
@@ -148,6 +149,36 @@ def plot_swing(
         ax.set(xlabel="time (s)", ylabel="distance from axis (m)")
     if chosen:
         legend_outside(ax)
+    return ax
+
+
+@described(bound=True)
+def plot_campbell(found: Campbell, ax: Axes | None = None, *, speed: str = "rpm") -> Axes:
+    """Draw the frequencies against the speed, with its multiples and a dot at each crossing; red where the shape is unstable.
+
+    >>> import numpy as np
+    >>> carousel = rc.Rig(rc.Chain(mass=80.0, length=4.0), support=rc.Support(radius=3.0))
+    >>> rc.campbell(carousel, np.linspace(0.3, 1.5, 25)).plot().get_ylabel()
+    'frequency (per minute)'
+    """
+    unit = SpeedUnit("revchain.Campbell.plot", speed)
+    if unit.unit == "s":
+        raise ValueError('revchain.Campbell.plot: speed must be "rpm", "rad/s" or "Hz" in a Campbell diagram, got "s"')
+    ax = beside_at_rest(found.system, ax, 7.0, 4.5)
+    x, y = unit.of(found.angular_speed), unit.of(found.frequency)
+    for j in range(y.shape[1]):
+        ax.plot(x, y[:, j], color=house(0), linewidth=1.4)
+        ax.plot(x, np.where(found.stable, np.nan, y[:, j]), color=house(1), linewidth=1.4)
+    top = 1.15 * max([order * x[-1] for order in found.orders])
+    for order in found.orders:
+        ax.plot([0, x[-1]], [0, order * x[-1]], color="0.6", linewidth=0.9, zorder=0)
+        ax.annotate(f"{order}n", (x[-1], order * x[-1]), (3, 0), textcoords="offset points", va="center", color="0.4")
+    for one in found.crossings:
+        at = unit.of(one.angular_speed)
+        ax.plot(at, one.order * at, "o", color="black", markersize=4)
+        ax.annotate(f"{at:.3g}", (at, one.order * at), (4, -4), textcoords="offset points", va="top")
+    per = {"rpm": "per minute", "Hz": "Hz", "rad/s": "rad/s"}[unit.unit]
+    ax.set(xlabel=unit.label, ylabel=f"frequency ({per})", ylim=(0, top), xlim=(0, 1.06 * x[-1]))
     return ax
 
 

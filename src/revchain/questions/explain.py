@@ -102,6 +102,8 @@ def _method(caller: str, system: Any, first: int, count: int) -> tuple[str, floa
     """The only method, its error bound as measured, and its time."""
     if system._kind == "rig":
         spinning = system.has_momentum
+        if system.is_damped:
+            return "rig, by exponents", 2.0**-50, 5e-5 + 5e-8 * system.size**3
         return "rig, by counts or discs", 2.0**-50 if spinning else 2.0**-51, 2.5e-5 + 1e-6 * system.size * count * (1 + spinning)
     if system._is_cord:
         one = modes(system, 1)

@@ -59,7 +59,8 @@ def response(
         Amplitude of the acceleration of the support, m/s^2, instead of a radius; positive.
     force : float, optional
         Amplitude of a horizontal force on a support that yields, N (in the unit of the weights), instead of a radius;
-        positive.
+        positive. With momentum of flywheels the force turns with the speed, as a radius and an acceleration do; to and fro
+        is then the mean of the responses at both signs of the speed.
     pins : int or array_like of int, optional
         Pins to return, from 0 (free end) to N or -1 (support); all N + 1 if left out. Fewer pins save memory in long
         sweeps.
@@ -152,6 +153,11 @@ def response(
         "pins": which,
         **{name: drive.get(name) for name in drives},
     }
+    if "force" in drive and (support is None or not np.isfinite(support.stiffness)):
+        raise ValueError(
+            f"{caller}: force needs a support that yields, Support(stiffness=) or Support(mass=); a firm one does not move, got "
+            f"{drive['force']:g}"
+        )
     pinned = isinstance(system, Rig) and (system._has_pins or system.support.stiffness == 0)
     if pinned or "support_radius" not in drive:
         return _forced(caller, system, speed, g, drive, number, parts, axis)

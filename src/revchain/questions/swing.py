@@ -59,7 +59,8 @@ def swing(
     system : Chain, Rig or Cord
         A chain of N links, a rig, or a cord.
     time : array_like
-        Times in s, positive or negative; a number or an array with one axis.
+        Times in s; a number or an array with one axis. Negative ones only without dashpots, springs at pins, trolleys and a
+        moving support.
     offset : array_like, shape (N + 1,) or (N,), optional
         Offsets of the pins at time 0, m, free end first; on the axis if left out. The last one, of the support, may be left out; it must be 0
         unless a `Rig` has a support that yields. For a cord: a continuous function of the distance from the free end, or
@@ -94,7 +95,8 @@ def swing(
         comes with a chain. For a rig: if its straight position is unstable (the message gives the growth rate), if its
         support is carried round (use `response`), if the fluid turns, if it has momentum and pins without inertia, or if a
         start is complex without momentum. With dashpots, springs at pins, a trolley or a moving support: if a time is
-        negative, `count` is given, a force acts on a firm support, or there are more than 1000 links.
+        negative, `count` is given, a force acts on a firm support, the motion grows beyond all numbers, or there are more
+        than 1000 links.
 
     Notes
     -----
@@ -209,13 +211,18 @@ def _transient(
         None if given is None else np.asarray(_start(name, given, system, turns), np.complex128)
         for name, given in (("offset", offset), ("velocity", velocity))
     ]
+    if support is not None and support._what == "force" and (system._support is None or not np.isfinite(system._support.stiffness)):
+        raise ValueError(
+            f"{_CALLER}: support must not be a force on a firm support, which does not move; give Support(stiffness=) or "
+            f"Support(mass=), or velocities, got {support!r}"
+        )
     kind, when, values = "acceleration", np.empty(0), np.empty(0)
     if support is not None:
         kind, when = support._what, support.time
         values = support._given[kind] / (system._force(g) if kind == "force" else 1.0)
     order = np.argsort(times, kind="stable")
     y, v, estimate, end, sway, exponent, shape, amplitude, start, projected = checked(
-        _CALLER, system.by_mass, _core.transient, rig._under(g), *starts, times[order], kind, when, values, g
+        _CALLER, system.by_mass, _core.transient, rig._under(g), *starts, times[order], kind, when, values, support is None or support.rests is not False, g
     )
     back = np.argsort(order, kind="stable")
     plain = (lambda x: x) if turns else np.real

@@ -620,7 +620,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         if self.system._kind != "rig":
             return lines[0]
         if self._is_damped and not self.angular_speed.all():
-            lines.append("speed 0: the motion only decays")
+            grows = bool((self.exponent.real > 0).any())
+            lines.append(f"speed 0: the motion only decays{', or grows where the decay time is negative' if grows else ''}")
         if self.rigid:
             lines.append("the trolley rolls freely: the system also moves as a whole, at speed 0, which is no mode of the list")
         if self.has_momentum:

@@ -138,7 +138,7 @@ class Response(Result, Moving):
         farthest = size.max(axis=1, initial=0.0)
         pin = int(pins[0]) if pins.size else 0
         name = "free end" if pin == 0 else f"pin {pin}"
-        damped = np.iscomplexobj(offset)
+        damped = np.iscomplexobj(self.support_force)
         columns = [
             *speed_columns(speed, 5),
             Column("modes_below", self.modes_below.reshape(-1), "modes below"),
@@ -177,7 +177,8 @@ class Response(Result, Moving):
         base = getattr(self.system, "chain", self.system)
         moved = 0.0 if self.force is not None else np.max(np.abs(self._support_amplitude), initial=0.0)
         if farthest.max(initial=0.0, where=np.isfinite(farthest)) - moved > BENT * base.total_length:
-            notes.append("some offsets are not small compared with the chain: use steady_shapes there")
+            instead = ": use steady_shapes there" if self.error_bound is not None else ""
+            notes.append(f"some offsets are not small compared with the chain{instead}")
         facts: dict[str, Any] = {"gravity": self.gravity}
         drives = {"support_radius": self.support_radius, "acceleration": self.acceleration, "force": self.force}
         facts |= {name: value for name, value in drives.items() if value is not None}
@@ -196,12 +197,15 @@ class Response(Result, Moving):
         return Column("error_bound", self._error.reshape(-1), "error bound")
 
     def _heading(self) -> str:
+        turns = self.system.has_momentum  # to and fro is then another motion
         if self.force is not None:
             unit = " N" if self.system.by_mass else ""
-            return f"support pushed to and fro with {self.force:g}{unit}"
+            return f"support pushed {'round' if turns else 'to and fro'} with {self.force:g}{unit}"
         if self.acceleration is not None:
-            return f"support moving to and fro with an acceleration of {self.acceleration:g} m/s^2, or in a circle"
-        return f"support moving in a circle of radius {self.support_radius:g} m, or to and fro with this amplitude"
+            way = "in a circle" if turns else "to and fro"
+            return f"support moving {way} with an acceleration of {self.acceleration:g} m/s^2{'' if turns else ', or in a circle'}"
+        to_and_fro = "" if turns else ", or to and fro with this amplitude"
+        return f"support moving in a circle of radius {self.support_radius:g} m{to_and_fro}"
 
 
 class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",), spread=True):
@@ -267,6 +271,12 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
         heading="support",
         unit="m",
     )
+    largest_deflection: Field[Floats | None] = Field(
+        "Where there is an `error_estimate`: largest distance of a pin from below the support at each time, m. Else None.",
+        lambda s: np.abs(s.offset - s.offset[:, -1:]).max(axis=1) if s.error_estimate is not None else None,
+        heading=lambda s: "from support" if s.motion_end else "",
+        unit="m",
+    )
     largest_offset: Field[Floats] = Field(
         "Largest distance of a pin or place from the axis at each time, m.",
         lambda s: np.abs(s.offset).max(axis=1),
@@ -313,8 +323,9 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
         fact=True,
     )
     sway: Field[Floats | None] = Field(
-        "Where there is an `error_estimate`: the largest distance of each pin from its resting place after `motion_end`, m, "
-        "shape (N + 1,): the sum of the amplitudes of all motions, which one motion alone reaches. Else None.",
+        "Where there is an `error_estimate`: the largest distance of each pin from below the support after `motion_end`, m, "
+        "shape (N + 1,), to 1 %; the last is that of the support from its resting place. Infinite if the motion grows. "
+        "Else None.",
         lambda s: None,
         part=True,
         fact=True,
@@ -361,7 +372,7 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
     @property
     def _remarks(self) -> str:
         if self.error_estimate is not None:
-            return "sway: distance from the resting place; error estimate: of every offset"
+            return "sway: distance from below the support; error estimate: of every offset"
         if self.error_bound is None:
             return f"error: {self.truncation_error.max():.2g} m at most, estimated from the modes left out"
         plane = "x + i y: the two horizontal directions; " if self._turns else ""
@@ -371,8 +382,10 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
         what = "whirl" if self._turns else "mode"
         if self.energy is None:
             count = self.angular_frequency.size
-            since = f"after {self.motion_end:.6g} s the free end sways by" if self.motion_end else "the free end sways by"
-            return f"{count} {what}{'s' * (count != 1)}; {since} {self.residual_sway:.5g} m at most"
+            since = f"after {self.motion_end:.6g} s the free end" if self.motion_end else "the free end"
+            sway = self.residual_sway or 0.0
+            far = f"sways by {sway:.5g} m at most" if np.isfinite(sway) else "falls"
+            return f"{count} {what}{'s' * (count != 1)}; {since} {far}"
         energy = np.abs(self.energy)
         share = energy / energy.sum() if energy.sum() > 0 else energy
         most = np.argsort(share)[::-1][:3]

@@ -37,13 +37,13 @@ class Stability(
     Result,
     row="exponent",
     title="Stability ({frame}): {verdict}, growth rate {_growth_rate} n",
-    notes=("without damping; last two columns: growth rate added by a unit of damping, 1/s",),
+    notes=("without damping but that of dashpots; last two columns: growth rate added by a unit of damping, 1/s",),
 ):
     """Linear stability of a steady shape; times are in units of 1/n, with n the turning speed.
 
     Notes
     -----
-    Exponents and verdict are without damping. A minimum stays stable with friction at the pins. A shape that is only
+    Exponents and verdict are without damping, but for dashpots of a rig at its pins. A minimum stays stable with friction at the pins. A shape that is only
     ``spectrally stable`` is stabilized by gyroscopic forces: any friction at the pins makes its motions of negative
     energy grow. `internal_damping` and `external_damping` give the effect on each motion, to first order.
 

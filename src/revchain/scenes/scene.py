@@ -29,6 +29,8 @@ __all__ = ["Scene", "load_scene"]
 Answer = TypeVar("Answer")
 
 EXCLUSIVE = (*SPEEDS["shapes"], *SPEEDS["branches"], "count", "first")
+DRIVES = ("support_radius", "acceleration", "force")
+MOVES = ("support_velocity", "support_acceleration", "support_offset", "support_force")
 # By the id of each living scene. A struct with `dict=True` could hold this, but msgspec before 0.21 crashes with it on
 # Python 3.13; a frozen struct with lists has no hash, so that it is no key of a WeakKeyDictionary.
 _MADE: dict[int, tuple["weakref.ref[Scene]", dict[str, Any]]] = {}
@@ -268,6 +270,9 @@ class Scene(Tables, frozen=True, weakref=True):
         data = {} if said is UNSET else to_builtins(said)
         if question != "swing" and any(name in changed for name in EXCLUSIVE):  # another choice than that of the scene
             data = {name: value for name, value in data.items() if name not in EXCLUSIVE}
+        for choices in (DRIVES, MOVES):
+            if any(name in changed for name in choices):
+                data = {name: value for name, value in data.items() if name not in choices}
         data |= {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in changed.items()}
         problems: list[Problem] = []
         table = parse.convert(data, TABLES[question], "scene", problems)

@@ -618,7 +618,7 @@ def checked(caller: str, by_mass: bool, make: Callable[..., Any], *given: Any, *
         return make(*given, **named)
     except ValueError as error:
         text = str(error).partition(": ")[2]
-        raise ValueError(f"{caller}: {text.replace('weight', 'mass') if by_mass else text}") from None
+        raise ValueError(f"{caller}: {text.replace('weights', 'masses').replace('weight', 'mass') if by_mass else text}") from None
 
 
 def compiled(caller: str, chain: Chain, link_by_link: bool = True) -> _core.Chain:

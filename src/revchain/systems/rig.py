@@ -42,6 +42,9 @@ class _Fitting(Unchangeable):
             return self._given.get(name)
         raise AttributeError(f"a {type(self).__name__} has no {name}")
 
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *type(self).__init__.__annotations__} - {"return"})
+
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
             return NotImplemented
@@ -189,7 +192,8 @@ class Pin(_Fitting):
         Torque over the angle between the links, N m/rad; the straight chain is relaxed. For a chain given by weight in the
         unit of its weights times m.
     damping : array_like
-        Torque over the rate of that angle, N m s/rad.
+        Torque over the rate of that angle, N m s/rad, of links that do not turn about their own axes. About steady shapes
+        (`SteadyShape.stability`) links also turn about their own axes, so that the least energy is lost.
 
     Raises
     ------
@@ -219,6 +223,8 @@ class Pin(_Fitting):
         for name, column in columns.items():
             refuse_where(~np.isfinite(column), column, f"{caller}: {name} must be finite")
             refuse_where(column < 0, column, f"{caller}: {name} must not be negative")
+            if not column.size:
+                raise ValueError(f"{caller}: {name} must have a number for each link, got none")
         _set(self, "_given", {name: read_only(column) for name, column in columns.items() if column.any()})
 
 

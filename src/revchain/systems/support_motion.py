@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .numbers import Floats, floats, read_only, refuse_where, shown
+from .numbers import Floats, boolean, floats, read_only, refuse_where, shown
 from .rig import _Fitting
 
 KINDS = ("velocity", "acceleration", "offset", "force")
@@ -16,13 +18,15 @@ _CALLER = "revchain.SupportMotion"
 class SupportMotion(_Fitting):
     """How a support is moved in time: a trolley that brakes, a ship that rolls, a shaker; or how it is pushed.
 
-    Give the times and one of the other four. Velocities, accelerations and forces are joined by straight lines, offsets by
-    a cubic spline. Before the first time and after the last there is no acceleration (or force).
+    Give the times and one of the next four. Velocities, accelerations and forces are joined by straight lines, offsets by
+    a cubic spline. Before the first time and after the last there is no acceleration (or force): a support whose velocity is
+    not 0 then goes on.
 
     Parameters
     ----------
     time : array_like, shape (K,)
-        Times in s, from 0 on, ascending; at least two. Two equal times are a jump of acceleration or force.
+        Times in s, from 0 on, ascending; at least two. Two equal times are a jump of acceleration or
+        force.
     velocity : array_like, shape (K,), optional
         Velocities of the support, m/s. It is at 0 at the first time.
     acceleration : array_like, shape (K,), optional
@@ -31,6 +35,9 @@ class SupportMotion(_Fitting):
         Places of the support, m.
     force : array_like, shape (K,), optional
         Forces on a support that yields, N, or in the unit of the weights.
+    rests : bool
+        With offsets: whether the support is at rest before the first time and after the last. If not, it goes on with the
+        velocities of the spline at its ends, as for a stretch cut out of a longer motion.
 
     Raises
     ------
@@ -41,8 +48,8 @@ class SupportMotion(_Fitting):
     Notes
     -----
     A support with a spring is moved at the far end of the spring, as the ground moves under a machine. Any other, a free
-    trolley too, is moved itself. Source: for the third derivative of the spline, which does not jump at the second and at
-    the last but one place, C. de Boor, A Practical Guide to Splines (1978), chapter IV.
+    trolley too, is moved itself. Source: C. de Boor, A Practical Guide to Splines (1978), chapter IV: complete splines, or if
+    the support does not rest at the ends not-a-knot splines.
 
     Examples
     --------
@@ -67,6 +74,7 @@ class SupportMotion(_Fitting):
         acceleration: ArrayLike | None = None,
         offset: ArrayLike | None = None,
         force: ArrayLike | None = None,
+        rests: bool = True,
     ) -> None:
         named = dict(zip(KINDS, (velocity, acceleration, offset, force), strict=True))
         given = {name: value for name, value in named.items() if value is not None}
@@ -84,12 +92,17 @@ class SupportMotion(_Fitting):
         if kind in ("velocity", "offset"):
             same = np.append(False, np.diff(times) == 0)
             refuse_where(same, times, f"{_CALLER}: times must differ, for a support cannot jump, nor its {kind}; time")
-        object.__setattr__(self, "_given", {"time": read_only(times), kind: read_only(values)})
+        made: dict[str, Any] = {"time": read_only(times), kind: read_only(values)}
+        if not boolean(_CALLER, "rests", rests):
+            if kind != "offset":
+                raise ValueError(f"{_CALLER}: rests=False goes with offsets, got {kind}")
+            made["rests"] = False
+        object.__setattr__(self, "_given", made)
 
     @property
     def _what(self) -> str:
         """What is given: "velocity", "acceleration", "offset" or "force"."""
-        return next(name for name in self._given if name != "time")
+        return next(name for name in KINDS if name in self._given)
 
 
 def _listed(name: str, value: ArrayLike) -> Floats:

@@ -355,6 +355,25 @@ def small_motions(rig, shape, frame="free", dashpots=None):
     )  # fmt: skip
 
 
+def first_order(motions, friction=0.0, drag=0.0):
+    """The matrix of the damped motions, times in 1/n, in 40 digits."""
+    friction, drag = mp.mpf(float(friction)), mp.mpf(float(drag))
+    count, inverse = motions.inertia.rows, motions.inertia**-1
+    whole = mp.zeros(2 * count)
+    whole[:count, count:] = mp.eye(count)
+    whole[count:, :count] = -inverse * (motions.stiffness + drag * mp.matrix(motions.follow.tolist())) / motions.speed**2
+    rates = motions.turn + friction * mp.matrix(motions.friction.tolist()) + drag * mp.matrix(motions.drag.tolist())
+    whole[count:, count:] = -inverse * rates / abs(motions.speed)
+    return whole
+
+
+def exponents(motions, **damping):
+    """Of small motions, over the speed, less those of a support all but without mass."""
+    with mp.workdps(40):
+        found = mp.eig(first_order(motions, **damping), left=False, right=False)
+        return [s for s in found if abs(s) < 1e5]
+
+
 def balance(rows, n, place, turns=False, radius=0, stiffness=0, carriage=0):
     """Return the unbalanced loads of a steady shape at a speed: the moment about each upper pin and, on a spring, the force on
     the support; with it the sideways pull at each upper pin and the weight below it. `place`: inclinations, lowest

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/pencil/jointed.hpp"
 
 /// The family Q(s) = K + s (C - i G) + s^2 M of a rig with dashpots, and what its moving support

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`Campbell`: the result of `revchain.campbell`."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..systems.numbers import Floats
+from .base import Field, Result
+
+
+class Crossing(NamedTuple):
+    """Where a frequency meets a multiple of the speed.
+
+    `order`: the multiple. `motion`: number of the frequency, from 1 for the lowest. `angular_speed`: rad/s.
+    """
+
+    order: int
+    motion: int
+    angular_speed: float
+
+    @property
+    def rpm(self) -> float:
+        """The speed in revolutions per minute."""
+        return self.angular_speed * 30 / np.pi
+
+
+class Campbell(Result, row="speed", title="{summary}", notes=("{_remarks}",), spread=True):
+    """Frequencies of small motion about a steady shape against the speed (a Campbell diagram); returned by `campbell`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import revchain as rc
+    >>> carousel = rc.Rig(rc.Chain(mass=80.0, length=4.0), support=rc.Support(radius=3.0))
+    >>> found = rc.campbell(carousel, np.linspace(0.3, 1.5, 25))
+    >>> [(one.order, one.motion, round(one.rpm, 3)) for one in found.crossings]
+    [(1, 1, 7.705), (2, 1, 5.001), (2, 2, 12.823)]
+    """
+
+    __slots__ = ()
+    system: Field[Any] = Field("The system.")
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", fact=True)
+    frame: Field[str] = Field('``"free"`` or ``"driven"``, as given.', fact=True)
+    orders: Field[tuple[int, ...]] = Field("Multiples of the speed whose crossings are listed.", fact=True)
+    angular_speed: Field[Floats] = Field("Speeds, rad/s, shape (S,).", heading="speed", unit="rad/s", digits=5)
+    rpm: Field[Floats] = Field(
+        "Revolutions per minute, shape (S,).", lambda c: c.angular_speed * (30 / np.pi), heading="speed (rpm)", digits=5, axes=()
+    )
+    frequency: Field[Floats] = Field(
+        "Angular frequencies of the small motions in the turning frame, rad/s, shape (S, J), ascending; NaN where a motion "
+        "does not oscillate or there is no shape.",
+        axes=("motion",),
+        unit="rad/s",
+    )
+    lowest: Field[Floats] = Field(
+        "The lowest frequency, rad/s, shape (S,).", lambda c: c.frequency[:, 0], heading="lowest frequency", unit="rad/s", axes=()
+    )
+    over_speed: Field[Floats] = Field(
+        "The lowest frequency over the speed, shape (S,): 1 in resonance with what is constant in space.",
+        lambda c: c.frequency[:, 0] / c.angular_speed,
+        heading="over speed",
+        digits=5,
+        axes=(),
+    )
+    stable: Field[NDArray[np.bool_]] = Field(
+        "Whether no motion grows, as far as the exponents tell, shape (S,).", heading="stable", axes=()
+    )
+    crossings: Field[tuple[Crossing, ...]] = Field(
+        "Crossings of the frequencies with the multiples of the speed, by order and speed. Two between neighbouring speeds are "
+        "not seen.",
+    )
+    summary: Field[str] = Field("What was found, in words.", lambda c: c._words())
+
+    def _words(self) -> str:
+        ends = self.angular_speed[[0, -1]] * (30 / np.pi)
+        return f"Campbell diagram: {self.frequency.shape[1]} frequencies from {ends[0]:.4g} to {ends[1]:.4g} rpm"
+
+    @property
+    def _remarks(self) -> str:
+        lines = [f"{one.order}n meets frequency {one.motion} at {one.rpm:.5g} rpm" for one in self.crossings]
+        return "\n".join([*lines, "frequencies: of small motion in the turning frame, where what is constant in space turns once (1n)"])
