@@ -96,8 +96,8 @@ py::tuple tune(const Chain& chain, Index mode, Index link, const std::string& qu
                           found.lowest_height, found.highest_height, found.chain);
 }
 
-py::tuple bell_and_clapper(const Chain& chain) {
-    const auto found = revchain::bell_and_clapper(chain);
+py::tuple bell_and_clapper(const Chain& chain, std::optional<double> joint) {
+    const auto found = revchain::bell_and_clapper(chain, joint);
     return py::make_tuple(found.conical_height, found.inclination_ratio, found.silent_height, found.mismatch,
                           found.present, found.derivative);
 }
@@ -122,8 +122,9 @@ void bind_sensitivity(py::module_& module) {
     module.def("with_weight", &revchain::with_weight<double>, "chain"_a, "weight"_a, "pin"_a, "radius_of_gyration"_a);
     module.def("with_thread", &revchain::with_thread<double>, "chain"_a, "length"_a, "pin"_a);
     module.def("clamped", &revchain::clamped<double>, "chain"_a, "link"_a);
-    module.def("bell_and_clapper", &bell_and_clapper, "chain"_a);
-    module.def("bell_and_clapper_with_ratio", &revchain::bell_and_clapper_with_ratio<double>, "chain"_a, "ratio"_a);
+    module.def("bell_and_clapper", &bell_and_clapper, "chain"_a, "joint"_a);
+    module.def("bell_and_clapper_with_ratio", &revchain::bell_and_clapper_with_ratio<double>, "chain"_a, "ratio"_a,
+               "joint"_a);
     module.def("rig_sensitivity", &rig_sensitivity, "rig"_a, "angular_speed"_a, "offset"_a, "gravity"_a);
     module.def("stiffness_for_speed", &revchain::stiffness_for_speed, "rig"_a, "angular_speed"_a, "gravity"_a);
     module.def("momentum_for_speed", &revchain::momentum_for_speed, "rig"_a, "link"_a, "angular_speed"_a, "gravity"_a);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string_view>
 
 #include "revchain/chain.hpp"
@@ -40,8 +41,9 @@ inline constexpr std::array<std::string_view, 7> bell_datum_names{
 template <Real T>
 using ByBellDatum = std::array<T, bell_datum_names.size()>;
 
-/// The two modes, slower first. Bell and clapper lean to the same side in the slower mode and to
-/// opposite sides in the faster one, so they can swing as one piece in the slower mode only.
+/// The two modes. Bell and clapper lean to the same side in the first and to opposite sides in the
+/// second, so they can swing as one piece in the first only. With the pin of the clapper below the
+/// axle the first is the slower one, above it the faster one.
 template <Real T>
 struct BellAndClapper {
     std::array<T, 2> conical_height;
@@ -57,16 +59,20 @@ struct BellAndClapper {
 /// and the derivatives of the slower mode's ratio of inclinations. Accuracy: heights and ratios 2
 /// ulp, derivatives 4 ulp of the sum of their terms' magnitudes (tests/cpp/bell.cpp). Cost O(1).
 /// Throws InvalidArgument unless there are two links, both with weight.
+/// `joint`: distance of the clapper's pin below the axle, instead of the bell's length; negative
+/// above it, and 0 in it: then each swings alone.
 template <Real T>
-[[nodiscard]] BellAndClapper<T> bell_and_clapper(const Chain<T>& chain);
+[[nodiscard]] BellAndClapper<T> bell_and_clapper(const Chain<T>& chain,
+                                                 const std::optional<T>& joint = {});
 
 /// Returns, for each datum, the value nearest to the present one that gives the slower mode the
 /// inclination ratio `ratio`, with all other data constant; NaN if there is none. A ratio of 1
 /// makes bell and clapper one piece; a bell rings with a ratio far enough from 1. Each value is a
-/// root of a quadratic. Cost O(1). Throws InvalidArgument as `bell_and_clapper`, and for a ratio <=
-/// 0.
+/// root of a quadratic. Cost O(1). Throws InvalidArgument as `bell_and_clapper`, for a ratio <= 0
+/// and a joint of 0.
 template <Real T>
-[[nodiscard]] ByBellDatum<T> bell_and_clapper_with_ratio(const Chain<T>& chain, const T& ratio);
+[[nodiscard]] ByBellDatum<T> bell_and_clapper_with_ratio(const Chain<T>& chain, const T& ratio,
+                                                         const std::optional<T>& joint = {});
 
 }  // namespace revchain
 

@@ -132,3 +132,42 @@ TEST_CASE("what is no bell and clapper is refused", "[linear]") {
     const Chain<double> thread({revchain::plummet(1.0, 1.0), revchain::plummet(0.0, 1.0)});
     CHECK_THROWS_AS(revchain::bell_and_clapper(thread), revchain::InvalidArgument);
 }
+
+TEST_CASE("a clapper pinned in the axle or above it", "[public]") {
+    // 500 kg, 18 kg; the pin 3 cm above the axle, g = 9.81
+    const Chain<double> chain({revchain::compound_pendulum<double>(
+                                   {.weight = 18, .length = 0.65, .centroid = 0.52, .radius_of_gyration = 0.08}),
+                               revchain::compound_pendulum<double>(
+                                   {.weight = 500, .length = 0.15, .centroid = 0.2, .radius_of_gyration = 0.3})});
+    const auto above = revchain::bell_and_clapper<double>(chain, -0.03);
+    CHECK(std::abs(std::sqrt(9.81 / above.conical_height[1]) - 3.87184) <= 5e-6);
+    CHECK(std::abs(std::sqrt(9.81 / above.conical_height[0]) - 4.29572) <= 5e-6);
+    CHECK(above.inclination_ratio[0] > 0);
+    CHECK(above.inclination_ratio[1] < 0);
+    // W2 (h2^2 + rho2^2) + W1 a^2, W1 h1 a, W1 h1 l1 against W2 h2 + W1 a, W1 h1
+    for (const double a : {-0.4, -0.03, -1e-7, 0.0, 1e-7, 0.15}) {
+        const auto found = revchain::bell_and_clapper<double>(chain, a);
+        const double M11 = 500 * (0.04 + 0.09) + 18 * a * a, M12 = 18 * 0.52 * a, M22 = 18 * (0.52 * 0.52 + 0.0064);
+        for (std::size_t k = 0; k < 2; ++k) {
+            const double x = found.conical_height[k], r = found.inclination_ratio[k];
+            const double off = (x * (500 * 0.2 + 18 * a) - M11) * (x * 18 * 0.52 - M22) - M12 * M12;
+            CAPTURE(a, k, x, r);
+            CHECK(std::abs(off) <= 1e-13 * M11 * M22);
+            if (a != 0) CHECK(std::abs(x * 18 * 0.52 * r - M12 - M22 * r) <= 1e-12 * (std::abs(M12) + std::abs(M22 * r)));
+        }
+        if (a == 0) continue;
+        for (const double ratio : {0.7, 1.0, 1.8}) {  // the data that give it do
+            const auto values = revchain::bell_and_clapper_with_ratio<double>(chain, ratio, a);
+            if (!std::isnan(values[4])) {
+                CHECK(values[4] * a > 0);
+                CHECK(std::abs(revchain::bell_and_clapper<double>(chain, values[4]).inclination_ratio[0] - ratio) <= 1e-9);
+            }
+        }
+        // derivative by the joint
+        const double step = 1e-6 * std::abs(a);
+        const double up = revchain::bell_and_clapper<double>(chain, a + step).inclination_ratio[0],
+                     down = revchain::bell_and_clapper<double>(chain, a - step).inclination_ratio[0];
+        CHECK(std::abs((up - down) / (2 * step) / found.derivative[4] - 1) <= 1e-5);
+    }
+    CHECK_THROWS_AS(revchain::bell_and_clapper_with_ratio<double>(chain, 1.0, 0.0), revchain::InvalidArgument);
+}

@@ -13,6 +13,7 @@ LIGHT = rc.bell_and_clapper(rc.Chain(mass=[18.0, 500.0], **LINKS), gravity=G)
 HEAVY_CLAPPER = rc.bell_and_clapper(
     rc.Chain(mass=[30.0, 200.0], length=[0.8, 0.3], centroid=[0.7, 0.25], radius_of_gyration=[0.1, 0.35]), gravity=G
 )
+ABOVE, IN_THE_AXLE = (rc.bell_and_clapper(LIGHT.system, joint=joint, gravity=G) for joint in (-0.03, 0.0))
 
 
 def by_springs(bell, clearance, state, stiffness):
@@ -52,8 +53,10 @@ def by_springs(bell, clearance, state, stiffness):
     return -x, -vu
 
 
-@pytest.mark.parametrize("bell", [LIGHT, HEAVY_CLAPPER])
-@pytest.mark.parametrize("clearance", [0.2, 0.45])
+@pytest.mark.parametrize(
+    ("bell", "clearance"),
+    [*((bell, clearance) for bell in (LIGHT, HEAVY_CLAPPER, IN_THE_AXLE) for clearance in (0.2, 0.45)), (ABOVE, 0.2)],
+)
 def test_first_blow_of_a_full_circle(bell, clearance):
     blow = bell.first_strike(clearance)
     assert blow.strikes and blow.side == "leading"
@@ -110,3 +113,19 @@ def test_a_bell_is_drawn_at_rest():
     assert ax.yaxis_inverted()
     low = rc.bell_and_clapper(rc.Chain(mass=[18.0, 500.0], **LINKS | {"centroid": [0.52, 1e-3]}))  # a pendulum of 90 m
     assert "90" in low.plot().get_legend().get_texts()[-1].get_text()
+
+
+def test_a_clapper_pinned_above_the_axle_or_in_it():
+    """500 kg and 18 kg; above the axle the slower mode is that in which they lean opposite ways."""
+    assert ABOVE.angular_speed == pytest.approx([4.29572, 3.87184], abs=5e-6)
+    assert ABOVE.mode.tolist() == [2, 1] and LIGHT.mode.tolist() == [1, 2] and ABOVE.present["joint"] == -0.03
+    assert (ABOVE.inclination_ratio > 0).tolist() == [True, False]
+    assert ABOVE.with_ratio(1.2)["joint"] < 0 or np.isnan(ABOVE.with_ratio(1.2)["joint"])
+    d = LIGHT.present
+    alone = [d[f"{part}_centroid"] + d[f"{part}_radius_of_gyration"] ** 2 / d[f"{part}_centroid"] for part in ("bell", "clapper")]
+    assert sorted(IN_THE_AXLE.conical_height) == pytest.approx(sorted(alone), rel=1e-15)
+    with pytest.raises(ValueError, match="do not move each other"):
+        IN_THE_AXLE.with_ratio(1.0)
+    with pytest.raises(ValueError, match="joint"):
+        rc.bell_and_clapper(LIGHT.system, joint=np.nan)
+    assert "2" in str(ABOVE) and ABOVE.plot() is not None

@@ -106,6 +106,72 @@ def test_exponents_with_dashpots_are_those_of_damped_motions(name, frame):
     assert compared > 3
 
 
+def exponents_of_points(chain, shape, damping, radius, frame):
+    """Exponents over the speed of point masses on ball joints (in the plane that is driven: hinges) in the turning frame: Newton's
+    equations in space for the coordinates inclination and angle out of the plane, in double."""
+    n, speed = chain.size, shape.angular_speed
+    a, mass, lean = chain.length, chain.weight / G, shape.inclination
+    s, c, zero = np.sin(lean), np.cos(lean), np.zeros(n)
+    e = np.stack([s, zero, -c], axis=1)
+    tangent = np.stack([c, zero, s], axis=1), np.stack([zero, zero + 1, zero], axis=1)
+    planes = 2 if frame == "free" else 1
+    below = np.triu(np.ones((n, n))) * a  # pin m is below links m, m + 1, ...
+    place = below @ e + np.array([radius, 0.0, 0.0])
+    first = np.concatenate([below[:, :, None] * tangent[k] for k in range(planes)], axis=1)  # pins, coordinates, space
+    second = np.concatenate([below[:, :, None] * -e] * planes, axis=1)  # of a coordinate by itself; mixed ones are 0
+    inertia = np.einsum("m,mix,mjx->ij", mass, first, first)
+    turned = np.stack([-first[..., 1], first[..., 0], 0 * first[..., 2]], axis=-1)
+    turn = 2 * speed * np.einsum("m,mix,mjx->ij", mass, first, turned)
+    stiff = -(speed**2) * np.einsum("m,mix,mjx->ij", mass, first[..., :2], first[..., :2])
+    stiff += np.diag(mass @ (G * second[..., 2] - speed**2 * np.einsum("mx,mix->mi", place[:, :2], second[..., :2])))
+    rates = np.concatenate([np.cross(e, tangent[k]) for k in range(planes)])  # of each link, without spin
+    spins = n + (frame == "free" and radius == 0)  # the support turns freely, too
+    given, left, root = np.zeros((n, 3, planes * n)), np.zeros((n, 3, spins)), np.sqrt(damping)
+    for k in range(n):  # the joint above link k
+        for link, sign in ((k, 1.0), (k + 1, -1.0)):
+            if link < n:
+                for plane in range(planes):
+                    given[k, :, plane * n + link] += sign * root[k] * rates[plane * n + link]
+                left[k, :, link] += sign * root[k] * e[link]
+    if spins > n:
+        left[-1, 2, n] = root[-1]
+    given, left = given.reshape(3 * n, -1), left.reshape(3 * n, -1)
+    if frame == "free":
+        given = given - left @ np.linalg.lstsq(left, given, rcond=None)[0]
+    count = planes * n
+    whole = np.zeros((2 * count, 2 * count))
+    whole[:count, count:] = np.eye(count)
+    whole[count:, :count] = -np.linalg.solve(inertia, stiff)
+    whole[count:, count:] = -np.linalg.solve(inertia, turn + given.T @ given)
+    return np.linalg.eigvals(whole) / speed
+
+
+def test_random_chains_with_dashpots():
+    """Point masses on ball joints or hinges, on the axis or on an arm, with dashpots of any strength; REVCHAIN_CASES=10000: 12 min."""
+    random, compared, shapes = np.random.default_rng(45), 0, 0
+    while shapes < by_tier(40, 150):
+        n = int(random.integers(1, 6))
+        chain = rc.Chain(weight=10 ** random.uniform(-0.7, 0.7, n), length=10 ** random.uniform(-0.3, 0.3, n))
+        speed = random.uniform(1.05, 3.0) * rc.modes(chain, 1).angular_speed[0]
+        scale = chain.total_weight / G * chain.total_length**2 * speed
+        damping = scale * 10 ** random.uniform(-3, -0.5, n)
+        radius = float(random.choice([0.0, 0.2 * chain.total_length]))
+        rig = rc.Rig(chain, support=rc.Support(radius=radius), pins=rc.Pin(damping=damping))
+        for shape in rc.steady_shapes(rig, angular_speed=speed)[:2]:
+            shapes += 1
+            for frame in ("free", "driven"):
+                got, exact = shape.stability(frame=frame), exponents_of_points(chain, shape, damping, radius, frame)
+                largest = np.abs(exact).max()
+                assert got.exponents.size == exact.size - 2 * (frame == "free" and radius == 0)
+                for value in got.exponents:
+                    near = np.sort(np.abs(exact - value))
+                    assert near[0] <= 1e-6 * largest
+                    if near[1] > 1e-2 * largest:
+                        compared += 1
+                        assert near[0] <= 1e-9 * largest
+    assert compared > 2 * shapes
+
+
 @pytest.mark.parametrize("frame", ["free", "driven"])
 @pytest.mark.parametrize("name", RIGS)
 def test_rates_of_damping_are_those_of_damped_motions(name, frame):

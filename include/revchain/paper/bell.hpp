@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <limits>
+
 #include "revchain/bell.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
@@ -14,11 +16,12 @@ template <Real T>
 struct BellNumbers {
     using S = Wide<T>;
     Link<T> clapper, bell;
+    T pin;                              ///< from the axle down to the clapper's pin
     int exponent;                       ///< the chain's unit of length is 2^exponent
     S h1, square1, a2, h2, square2, f;  ///< squares of radii of gyration
     S l1, moment, turning;              ///< moment = (m + 1) a2, turning = a2 m l2
 
-    BellNumbers(std::string_view place, const Chain<T>& chain) {
+    BellNumbers(std::string_view place, const Chain<T>& chain, const std::optional<T>& joint) {
         using std::ldexp;
         if (chain.size() != 2)
             throw_invalid(place, "the chain must have two links, clapper and bell", chain.size());
@@ -29,7 +32,9 @@ struct BellNumbers {
             return link.gyration_ratio * (scaled(link.length) * scaled(link.length));
         };
         h1 = scaled(clapper.centroid), square1 = square(clapper);
-        a2 = scaled(bell.length), h2 = scaled(bell.centroid), square2 = square(bell);
+        if (joint) require_finite(place, "joint", *joint);
+        pin = joint.value_or(bell.length), a2 = scaled(pin), h2 = scaled(bell.centroid),
+        square2 = square(bell);
         const int weight = -chain.units().weight_exponent;
         f = S(ldexp(bell.weight, weight)) / S(ldexp(clapper.weight, weight));
         l1 = h1 + square1 / h1, moment = f * h2 + a2, turning = f * (h2 * h2 + square2);
@@ -39,6 +44,31 @@ struct BellNumbers {
         return ldexp(static_cast<T>(x), exponent);
     }
 };
+
+/// The modes of a clapper whose pin is in the axle: each swings alone. Their order and ratios are
+/// the limits of a small positive joint.
+template <Real T>
+BellAndClapper<T> apart(const BellNumbers<T>& n) {
+    using S = Wide<T>;
+    const T none = std::numeric_limits<T>::quiet_NaN(),
+            infinite = std::numeric_limits<T>::infinity();
+    const S l2 = n.h2 + n.square2 / n.h2;
+    const bool clapper_first = n.l1 > l2;
+    BellAndClapper<T> result;
+    result.conical_height = {n.length(clapper_first ? n.l1 : l2),
+                             n.length(clapper_first ? l2 : n.l1)};
+    result.inclination_ratio = {clapper_first ? infinite : T(0), clapper_first ? T(0) : -infinite};
+    result.silent_height = n.length(n.l1), result.mismatch = none;
+    result.present = {n.clapper.weight,
+                      n.clapper.centroid,
+                      radius_of_gyration(n.clapper),
+                      n.bell.weight,
+                      n.pin,
+                      n.bell.centroid,
+                      radius_of_gyration(n.bell)};
+    result.derivative.fill(none);
+    return result;
+}
 
 /// Returns the root of a x^2 + b x + c = 0 nearest to x0 among those for which `may` is true, or
 /// NaN.
@@ -66,10 +96,11 @@ S nearest_root(const S& a, const S& b, const S& c, const S& x0, const May& may) 
 }  // namespace detail
 
 template <Real T>
-BellAndClapper<T> bell_and_clapper(const Chain<T>& chain) {
+BellAndClapper<T> bell_and_clapper(const Chain<T>& chain, const std::optional<T>& joint) {
     using std::ldexp, std::sqrt;
     using S = Wide<T>;
-    const detail::BellNumbers<T> n("bell_and_clapper", chain);
+    const detail::BellNumbers<T> n("bell_and_clapper", chain, joint);
+    if (n.pin == T(0)) return detail::apart(n);
     const S two(T(2)), one(T(1)), slope = n.moment / n.a2 * n.l1 - n.turning / n.a2 - n.a2;
     const S root = sqrt(slope * slope + S(T(4)) * n.h1 * n.moment);
     const bool rising = !(slope < S(T(0)));
@@ -82,9 +113,13 @@ BellAndClapper<T> bell_and_clapper(const Chain<T>& chain) {
     result.inclination_ratio = {static_cast<T>(r), static_cast<T>(other)};
     result.silent_height = n.length(n.l1 + n.a2);
     result.mismatch = n.length(n.h1 - slope - n.moment);
-    result.present = {
-        n.clapper.weight, n.clapper.centroid, radius_of_gyration(n.clapper), n.bell.weight,
-        n.bell.length,    n.bell.centroid,    radius_of_gyration(n.bell)};
+    result.present = {n.clapper.weight,
+                      n.clapper.centroid,
+                      radius_of_gyration(n.clapper),
+                      n.bell.weight,
+                      n.pin,
+                      n.bell.centroid,
+                      radius_of_gyration(n.bell)};
     // dr/dx = -(dG/dx)/(dG/dr)
     const S m1 = n.moment / n.a2, lean = n.l1 / n.a2 * r + one, radius1 = sqrt(n.square1),
             radius2 = sqrt(n.square2);
@@ -105,12 +140,16 @@ BellAndClapper<T> bell_and_clapper(const Chain<T>& chain) {
 }
 
 template <Real T>
-ByBellDatum<T> bell_and_clapper_with_ratio(const Chain<T>& chain, const T& ratio) {
+ByBellDatum<T> bell_and_clapper_with_ratio(const Chain<T>& chain, const T& ratio,
+                                           const std::optional<T>& joint) {
     using std::sqrt;
     using S = Wide<T>;
     constexpr std::string_view place = "bell_and_clapper_with_ratio";
     detail::require_positive(place, "ratio", ratio);
-    const detail::BellNumbers<T> n(place, chain);
+    const detail::BellNumbers<T> n(place, chain, joint);
+    if (n.pin == T(0))
+        detail::throw_invalid(place, "clapper and bell do not move each other with the joint",
+                              n.pin);
     const S zero(T(0)), one(T(1)), r(ratio), m1 = n.moment / n.a2, bend = n.turning / n.a2 + n.a2;
     const T none = std::numeric_limits<T>::quiet_NaN();
     const auto radius = [&](const S& square) {
@@ -130,7 +169,7 @@ ByBellDatum<T> bell_and_clapper_with_ratio(const Chain<T>& chain, const T& ratio
             n.length(detail::nearest_root(
                 S(r - one), S(n.h1 * r * r - n.l1 * r - n.f * n.h2),
                 S(r * (n.turning - n.f * n.h2 * n.l1)), n.a2,
-                [&](const S& a) { return a > zero && n.f * n.h2 + a > zero; })),
+                [&](const S& a) { return a * n.a2 > zero && n.f * n.h2 + a > zero; })),
             n.length(detail::nearest_root(S(n.f * r / n.a2), S(-n.f * lean),
                                           S(n.f * n.square2 * r / n.a2 + fixed), n.h2,
                                           [&](const S& h) { return n.f * h + n.a2 > zero; })),

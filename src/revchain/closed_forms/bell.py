@@ -60,7 +60,11 @@ class BellAndClapper(
     __slots__ = ()
     system: Field[Chain] = Field("Two links: the clapper, and above it the bell.")
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", fact=True)
-    mode: Field[Whole] = Field("Numbers of the modes, the slower first.", lambda b: np.arange(1, 3), heading="mode")
+    mode: Field[Whole] = Field(
+        "Numbers of the modes, 1 for the slower one: [2, 1] if the pin of the clapper is above the axle.",
+        lambda b: 1 + np.argsort(-np.asarray(b.conical_height)),
+        heading="mode",
+    )
     angular_speed: Field[Floats] = Field(
         "Speed of each mode, rad/s, shape (2,).",
         lambda b: _core.conical_pendulum_angular_speed(np.asarray(b.conical_height), np.asarray(b.gravity)),
@@ -71,14 +75,14 @@ class BellAndClapper(
         "Revolutions per minute, shape (2,).", lambda b: b.angular_speed * (30 / math.pi), heading="speed", unit="rpm"
     )
     conical_height: Field[Floats] = Field(
-        "Conical height of the slower mode, in which both lean the same way, and of the faster mode, in which they lean "
-        "opposite ways, m, shape (2,).",
+        "Conical height of the mode in which both lean the same way, and of that in which they lean opposite ways, m, shape "
+        "(2,). The first is the slower one, unless the pin of the clapper is above the axle.",
         heading="height",
         unit="m",
     )
     inclination_ratio: Field[Floats] = Field(
         "Inclination of the clapper divided by that of the bell in each mode, shape (2,). If the first is 1, both swing "
-        "as one piece in the slower mode and the bell is silent. In the faster mode they never swing as one piece.",
+        "as one piece in this mode and the bell is silent. In the other mode they never swing as one piece.",
         heading="inclination: clapper / bell",
     )
     silent_height: Field[float] = Field(
@@ -117,7 +121,7 @@ class BellAndClapper(
         0.1928
         """
         wanted = real("revchain.BellAndClapper.with_ratio", "ratio", ratio)
-        values = _core.bell_and_clapper_with_ratio(self.system._compiled, wanted)
+        values = _core.bell_and_clapper_with_ratio(self.system._compiled, wanted, self.present["joint"])
         return dict(zip(_core.BELL_DATA, values, strict=True))
 
     @described()
@@ -177,11 +181,13 @@ def _clearance(caller: str, clearance: float) -> float:
 
 
 @described("2 ulp of heights and ratios; derivatives 1e-15 of the largest", "section 8 (14)-(16)", "O(1)")
-def bell_and_clapper(chain: Chain, *, gravity: float = STANDARD_GRAVITY) -> BellAndClapper:
+def bell_and_clapper(chain: Chain, *, joint: float | None = None, gravity: float = STANDARD_GRAVITY) -> BellAndClapper:
     """Return the modes of a bell and its clapper, and how far they are from swinging as one piece.
 
     chain: Two links, both with weight: the clapper, and above it the bell. The length of the bell is the distance
         from its axle to the pin of the clapper; the length of the clapper has no effect.
+    joint: Distance of the clapper's pin below the axle, m, instead of the length of the bell; negative above the axle, 0 in
+        it: then each swings alone
     returns: Heights, ratios of inclinations, and how they change with the data.
     raises: If the chain does not have two links with weight, or `gravity` is not positive. A TypeError if `chain` is
         not a `Chain`.
@@ -194,9 +200,16 @@ def bell_and_clapper(chain: Chain, *, gravity: float = STANDARD_GRAVITY) -> Bell
     >>> chain = rc.Chain(weight=[18, 500], length=[0.65, 0.15], centroid=[0.52, 0.2], radius_of_gyration=[0.08, 0.3])
     >>> rc.bell_and_clapper(chain).derivative["bell_centroid"] > 0
     True
+
+    A pin 3 cm above the axle:
+
+    >>> rc.bell_and_clapper(chain, joint=-0.03).angular_speed.round(5)
+    array([4.29499, 3.87118])
     """
     caller = "revchain.bell_and_clapper"
-    height, ratio, silent, mismatch, present, derivative = _core.bell_and_clapper(compiled(caller, chain))
+    height, ratio, silent, mismatch, present, derivative = _core.bell_and_clapper(
+        compiled(caller, chain), None if joint is None else real(caller, "joint", joint)
+    )
     found = {"conical_height": np.asarray(height), "inclination_ratio": np.asarray(ratio), "silent_height": silent}
     found |= {"mismatch": mismatch, "present": dict(zip(_core.BELL_DATA, present, strict=True))}
     found["derivative"] = dict(zip(_core.BELL_DATA, derivative, strict=True))
