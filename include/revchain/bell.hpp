@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string_view>
+#include <type_traits>
 
 #include "revchain/chain.hpp"
 
@@ -62,8 +63,8 @@ struct BellAndClapper {
 /// `joint`: distance of the clapper's pin below the axle, instead of the bell's length; negative
 /// above it, and 0 in it: then each swings alone.
 template <Real T>
-[[nodiscard]] BellAndClapper<T> bell_and_clapper(const Chain<T>& chain,
-                                                 const std::optional<T>& joint = {});
+[[nodiscard]] BellAndClapper<T> bell_and_clapper(
+    const Chain<T>& chain, const std::optional<std::type_identity_t<T>>& joint = {});
 
 /// Returns, for each datum, the value nearest to the present one that gives the slower mode the
 /// inclination ratio `ratio`, with all other data constant; NaN if there is none. A ratio of 1
@@ -71,8 +72,9 @@ template <Real T>
 /// root of a quadratic. Cost O(1). Throws InvalidArgument as `bell_and_clapper`, for a ratio <= 0
 /// and a joint of 0.
 template <Real T>
-[[nodiscard]] ByBellDatum<T> bell_and_clapper_with_ratio(const Chain<T>& chain, const T& ratio,
-                                                         const std::optional<T>& joint = {});
+[[nodiscard]] ByBellDatum<T> bell_and_clapper_with_ratio(
+    const Chain<T>& chain, const T& ratio,
+    const std::optional<std::type_identity_t<T>>& joint = {});
 
 }  // namespace revchain
 

@@ -139,7 +139,7 @@ TEST_CASE("a clapper pinned in the axle or above it", "[public]") {
                                    {.weight = 18, .length = 0.65, .centroid = 0.52, .radius_of_gyration = 0.08}),
                                revchain::compound_pendulum<double>(
                                    {.weight = 500, .length = 0.15, .centroid = 0.2, .radius_of_gyration = 0.3})});
-    const auto above = revchain::bell_and_clapper<double>(chain, -0.03);
+    const auto above = revchain::bell_and_clapper(chain, -0.03);
     CHECK(std::abs(std::sqrt(9.81 / above.conical_height[1]) - 3.87184) <= 5e-6);
     CHECK(std::abs(std::sqrt(9.81 / above.conical_height[0]) - 4.29572) <= 5e-6);
     CHECK(above.inclination_ratio[0] > 0);

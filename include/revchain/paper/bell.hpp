@@ -96,7 +96,8 @@ S nearest_root(const S& a, const S& b, const S& c, const S& x0, const May& may) 
 }  // namespace detail
 
 template <Real T>
-BellAndClapper<T> bell_and_clapper(const Chain<T>& chain, const std::optional<T>& joint) {
+BellAndClapper<T> bell_and_clapper(const Chain<T>& chain,
+                                   const std::optional<std::type_identity_t<T>>& joint) {
     using std::ldexp, std::sqrt;
     using S = Wide<T>;
     const detail::BellNumbers<T> n("bell_and_clapper", chain, joint);
@@ -141,7 +142,7 @@ BellAndClapper<T> bell_and_clapper(const Chain<T>& chain, const std::optional<T>
 
 template <Real T>
 ByBellDatum<T> bell_and_clapper_with_ratio(const Chain<T>& chain, const T& ratio,
-                                           const std::optional<T>& joint) {
+                                           const std::optional<std::type_identity_t<T>>& joint) {
     using std::sqrt;
     using S = Wide<T>;
     constexpr std::string_view place = "bell_and_clapper_with_ratio";
