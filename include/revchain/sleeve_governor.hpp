@@ -12,7 +12,7 @@
 ///
 ///     const revchain::SleeveGovernor watt({.ball_mass = 4, .arm = 1.4, .lower_arm = 1.4,
 ///                                          .sleeve_mass = 3, .gravity = 12});  // kg, m
-///     const auto at = watt.equilibria(5.0).front();  // at 5 rad/s
+///     const auto at = watt.equilibria(5.0).back();  // open, at 5 rad/s
 ///     std::cos(at.inclination);                      // 0.6
 ///     at.period;                                     // 2.19911 s = 0.7 pi s, the shaft's speed held
 ///     watt.speed(0.9);                               // 4.91232 rad/s: arms at 0.9 rad
