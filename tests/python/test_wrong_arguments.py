@@ -97,6 +97,7 @@ ONE_OF = {
     "Held.from_dict": {"data": HELD.to_dict()},
     "Held": {"span": 0.5},
     "Flywheel": {"momentum": 0.1},
+    "campbell": {"angular_speed": [6.0, 8.0]},
     "SupportMotion": {"time": [0.0, 1.0], "velocity": [1.0, 0.0]},
     "Displaced": {"weight": 0.1},
     "count_modes": {"conical_height": 0.4},
