@@ -120,7 +120,7 @@ QUESTIONS = {
     "branch": lambda system: rc.branch(system, 1, max_angular_speed=9.0),
     "response": lambda system: rc.response(system, angular_speed=9.0),
     "swing": lambda system: rc.swing(system, [0.0, 1.0], offset=[0.1, 0.1, 0.1, 0.0]),
-    "campbell": lambda system: rc.campbell(system, [9.0, 10.0]),
+    "campbell": lambda system: rc.campbell(system, [5.0, 6.0]),
     "tune": lambda system: rc.tune(system, angular_speed=9.0),
     "fit": lambda system: rc.fit(system, {1: (9.0, 0.1)}, vary="length"),
     "explain": lambda system: rc.explain(system, 1),

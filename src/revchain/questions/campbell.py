@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ..results.campbell import Campbell, Crossing
 from ..systems.chain import Chain
-from ..systems.numbers import STANDARD_GRAVITY, Floats, integer, one_positive, positive, shown
+from ..systems.numbers import STANDARD_GRAVITY, Floats, integer, listed, one_positive, positive, shown
 from ..systems.rig import Rig
 from .refuse import refuse_other
 from .shapes import steady_shapes
@@ -84,7 +84,7 @@ def campbell(
     speeds = np.array(positive(_CALLER, "angular_speed", angular_speed))
     if speeds.ndim != 1 or speeds.size < 2 or (np.diff(speeds) <= 0).any():
         raise ValueError(f"{_CALLER}: angular_speed must be a list of at least two ascending speeds, got {shown(angular_speed)}")
-    multiples = tuple(integer(_CALLER, "orders", order) for order in orders)
+    multiples = tuple(integer(_CALLER, "orders", order) for order in listed(_CALLER, "orders", orders))
     if not multiples or min(multiples) < 1:
         raise ValueError(f"{_CALLER}: orders must be whole positive numbers, at least one, got {shown(orders)}")
     waves, g = integer(_CALLER, "half_waves", half_waves), one_positive(_CALLER, "gravity", gravity)
