@@ -19,8 +19,9 @@
 ///     std::arg(r.offset(0, 0));     // -1.50611 rad: how far it is behind its support
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// What drives the rig: give one of `radius`, `acceleration` and `force`. All are amplitudes of
-/// motion to and fro, as cos(n t), or with momentum of motion on a circle with the speed n.
+/// The amplitude that drives the rig: one of `radius`, `acceleration` and `force`. If none is given,
+/// it is the radius of the rig's own support. The drive goes to and fro as cos(n t), or on a circle
+/// with the speed n if the rig has momentum.
 struct ForcedMotionOptions {
     std::vector<double> angular_speed{};  ///< n, rad/s, positive; with momentum of either sign
     double radius = 0;  ///< of the support's motion; of a spring's rest position if it has one
@@ -49,9 +50,9 @@ struct ForcedMotion {
 /// and half an ulp.
 /// Accuracy measured (tests/cpp/forced_motion.cpp): half an ulp of the largest offset, up to 1e-12
 /// from a resonance without dashpots. Cost: 2 microseconds for each link and speed.
-/// Throws InvalidArgument unless one of radius, acceleration and force is given, all are finite,
-/// speeds are not 0 and positive without momentum; for a force on a firm support, a radius of a
-/// rig's own support that is not 0, and a fluid that turns.
+/// Throws InvalidArgument unless one of radius, acceleration and force is given or the rig's own
+/// support has a radius, all are finite, speeds are not 0 and positive without momentum; for a force
+/// on a firm support, and for dashpots in a fluid that turns.
 REVCHAIN_DECLARE
 [[nodiscard]] ForcedMotion forced_motion(const Rig& rig, const ForcedMotionOptions& options);
 

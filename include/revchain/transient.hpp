@@ -31,8 +31,8 @@ struct SupportMotion {
     Given given = Given::acceleration;
     std::vector<double> time{};   ///< >= 0; before the first and after the last no acceleration
     std::vector<double> value{};  ///< for each time. The first offset is 0 unless offsets are given
-    /// Of offsets: whether the support rests before the first time and after the last. Otherwise the
-    /// first two pieces are one cubic, as the last two, and it goes on with the velocities there.
+    /// For offsets: true if the support rests before the first time and after the last. If false, the
+    /// first two pieces are one cubic, as are the last two, and the velocities at the ends go on.
     bool rests = true;
 };
 

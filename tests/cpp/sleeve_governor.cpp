@@ -3,6 +3,8 @@
 // integrated in time, and laws.
 #include "revchain/sleeve_governor.hpp"
 
+#include <optional>
+
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 
@@ -13,7 +15,7 @@ using revchain::SleeveGovernor;
 
 namespace {
 
-constexpr double degree = M_PI / 180, infinite = std::numeric_limits<double>::infinity();
+constexpr double degree = M_PI / 180;
 
 /// The square of the speed from the pulls of the links: moments of a ball's forces about its arm's pivot.
 double square_by_forces(const GovernorData& d, double angle, double lift, double friction) {
@@ -30,8 +32,18 @@ double square_by_forces(const GovernorData& d, double angle, double lift, double
     return moment / (d.ball_mass * r * d.arm * c);
 }
 
+/// The governor's point at an angle; none if it cannot reach the angle.
+std::optional<GovernorPoint> reached_at(const SleeveGovernor& governor, double angle) {
+    try {
+        return governor.at(angle);
+    } catch (const revchain::InvalidArgument&) {
+        return std::nullopt;
+    }
+}
+
 GovernorData random_governor(support::Random& random) {
-    GovernorData d{.ball_mass = random.log_between(0.1, 30), .arm = random.log_between(0.05, 3), .gravity = random.between(1, 20)};
+    GovernorData d{
+        .ball_mass = random.log_between(0.1, 30), .arm = random.log_between(0.05, 3), .gravity = random.between(1, 20)};
     d.balls = 2 + static_cast<int>(random.between(0, 2.99));
     d.pivot_offset = d.arm * random.between(-0.3, 0.5) * (random() < 0.5 ? 0 : 1);
     if (random() < 0.3) {
@@ -73,9 +85,11 @@ TEST_CASE("Watt's governor: 0.7 pi s with the shaft's speed held, 0.388 pi s wit
 }
 
 TEST_CASE("Porter's governor: numbers of text books", "[public]") {
-    const SleeveGovernor equal({.ball_mass = 2.3, .arm = 0.33, .lower_arm = 0.33, .sleeve_mass = 9.5122, .gravity = 9.81});
+    const SleeveGovernor equal(
+        {.ball_mass = 2.3, .arm = 0.33, .lower_arm = 0.33, .sleeve_mass = 9.5122, .gravity = 9.81});
     CHECK(std::abs(equal.speed(27 * degree) * 30 / M_PI - 125) <= 5e-5);
-    const SleeveGovernor unequal({.ball_mass = 30 / 9.81, .arm = 0.2, .lower_arm = 0.25, .sleeve_mass = 225 / 9.81, .gravity = 9.81});
+    const SleeveGovernor unequal(
+        {.ball_mass = 30 / 9.81, .arm = 0.2, .lower_arm = 0.25, .sleeve_mass = 225 / 9.81, .gravity = 9.81});
     CHECK(std::abs(unequal.speed(30 * degree) - 20.7264) <= 5e-5);
     CHECK(std::abs(unequal.speed(40 * degree) - 21.8109) <= 5e-5);
     // equal arms that meet in the axis: effort c (m + M) g for a small change c, power 4 c^2 / (1 + 2 c) (m + M) g h
@@ -92,15 +106,13 @@ TEST_CASE("random governors: speeds by forces, friction, all equilibria", "[publ
         const GovernorData d = random_governor(random);
         const SleeveGovernor governor(d);
         const double angle = random.between(0.05, 1.2);
-        GovernorPoint p;
-        try {
-            p = governor.at(angle);
-        } catch (const revchain::InvalidArgument&) {
-            continue;  // out of reach
-        }
+        const std::optional<GovernorPoint> reached = reached_at(governor, angle);
+        if (!reached) continue;
+        const GovernorPoint& p = *reached;
         if (p.ball_radius < 0.05 * d.arm) continue;
         CAPTURE(k, angle, p.lift, d.sleeve_arm, d.lower_arm, d.pivot_offset, d.arm);
-        for (const auto& [speed, friction] : {std::pair(p.speed, 0.0), {p.low_speed, -d.friction}, {p.high_speed, d.friction}}) {
+        for (const auto& [speed, friction] :
+             {std::pair(p.speed, 0.0), {p.low_speed, -d.friction}, {p.high_speed, d.friction}}) {
             const double square = square_by_forces(d, angle, p.lift, friction);
             if (square <= 0) {
                 CHECK(std::isnan(speed));
@@ -128,9 +140,8 @@ TEST_CASE("random governors: speeds by forces, friction, all equilibria", "[publ
             if (last * off < 0) ++changes;
             last = off;
         }
-        const auto inside = std::count_if(all.begin(), all.end(), [&](const GovernorPoint& at) {
-            return at.ball_radius > 1e-12 * d.arm;
-        });
+        const auto inside = std::count_if(all.begin(), all.end(),
+                                          [&](const GovernorPoint& at) { return at.ball_radius > 1e-12 * d.arm; });
         CHECK(inside >= changes);
         CHECK(std::any_of(all.begin(), all.end(),
                           [&](const GovernorPoint& at) { return std::abs(at.inclination - angle) <= 1e-7; }));
@@ -151,12 +162,9 @@ TEST_CASE("periods are those of oscillations integrated in time", "[public]") {
         const GovernorData d = random_governor(random);
         const SleeveGovernor governor(d);
         const double angle = random.between(0.3, 0.9);
-        GovernorPoint p;
-        try {
-            p = governor.at(angle);
-        } catch (const revchain::InvalidArgument&) {
-            continue;
-        }
+        const std::optional<GovernorPoint> reached = reached_at(governor, angle);
+        if (!reached) continue;
+        const GovernorPoint& p = *reached;
         if (!(p.period > 0) || p.ball_radius < 0.1 * d.arm) continue;
         // Energy and, if the shaft is free, angular momentum; forces from differences of energies.
         const auto place = [&](double x) {
@@ -178,8 +186,9 @@ TEST_CASE("periods are those of oscillations integrated in time", "[public]") {
                                                     : momentum * momentum / (2 * (d.shaft_inertia + J)));
         };
         const double e = 1e-3;
-        const double stiff = (-energy(angle + 2 * e) + 16 * energy(angle + e) - 30 * energy(angle) + 16 * energy(angle - e) -
-                              energy(angle - 2 * e)) / (12 * e * e);
+        const double stiff = (-energy(angle + 2 * e) + 16 * energy(angle + e) - 30 * energy(angle) +
+                              16 * energy(angle - e) - energy(angle - 2 * e)) /
+                             (12 * e * e);
         double moving = 0;
         const auto slope = [&](std::size_t i) { return (place(angle + e)[i] - place(angle - e)[i]) / (2 * e); };
         moving += balls * (slope(0) * slope(0) + slope(1) * slope(1)) + d.sleeve_mass * slope(2) * slope(2);
@@ -193,8 +202,12 @@ TEST_CASE("periods are those of oscillations integrated in time", "[public]") {
 TEST_CASE("Hartnell: an isochronous spring has one speed at all inclinations", "[public]") {
     // Without gravity the ball's pull m n^2 r a cos balances F b cos / 2 at every inclination if F is in proportion to r.
     const double n = 30, m = 1.5, a = 0.12, b = 0.06, r0 = 0.12;
-    const SleeveGovernor governor({.ball_mass = m, .arm = a, .pivot_offset = r0, .sleeve_arm = b,
-                                   .spring_stiffness = 2 * m * n * n * a * a / (b * b), .spring_force = 2 * m * n * n * r0 * a / b,
+    const SleeveGovernor governor({.ball_mass = m,
+                                   .arm = a,
+                                   .pivot_offset = r0,
+                                   .sleeve_arm = b,
+                                   .spring_stiffness = 2 * m * n * n * a * a / (b * b),
+                                   .spring_force = 2 * m * n * n * r0 * a / b,
                                    .gravity = 1e-12});
     for (const double angle : {-0.5, -0.1, 0.0, 0.2, 0.6}) CHECK(std::abs(governor.speed(angle) - n) <= 1e-10);
 }
@@ -217,5 +230,4 @@ TEST_CASE("governors: what is refused", "[public]") {
     CHECK_THROWS_WITH(governor.at(2.0), Contains("cannot reach"));
     CHECK_THROWS_WITH(governor.equilibria(-1), Contains("speed"));
     CHECK_THROWS_WITH(governor.effort(0.5, 0), Contains("change"));
-    CHECK(infinite > 0);
 }

@@ -449,7 +449,7 @@ OTHERS["balls"] = OTHERS["balls"].replace("0.1 0.16 0.1", "0.1 0.1 0.2")
 
 
 def exponents(text):
-    """Of small motions in MuJoCo, from central differences of its forces about the first keyframe or the pose at rest."""
+    """Exponents of small motions in MuJoCo, from central differences of its forces about the first keyframe or the pose at rest."""
     model = mujoco.MjModel.from_xml_string(text)
     data, size = mujoco.MjData(model), model.nv
     if model.nkey:

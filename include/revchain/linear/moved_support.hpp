@@ -6,7 +6,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// What a prescribed motion moves, or what a force acts on.
+/// How a rig is driven: its support moves, the far end of its support's spring moves, or a force acts
+/// on its support.
 enum class Moved { support, far_end_of_spring, by_force };
 
 REVCHAIN_LAZY
@@ -26,7 +27,7 @@ Rig relative_rig(const Rig& rig, Moved moved) {
     return {rig.chain(), std::move(with)};
 }
 
-/// Returns the rig for a motion in time: links do not turn about their own axes.
+/// Returns the rig for a motion in time: its links do not turn about their own axes.
 REVCHAIN_LAZY
 Rig without_axial_moments(const Rig& rig) {
     Rigging with = rig.rigging();

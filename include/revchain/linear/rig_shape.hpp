@@ -16,8 +16,8 @@ struct RigShapeFinder {
     Index idle = 0;  ///< the number of lowest pins that the pencil omits
     pencil::SignedPencil<RigWord> sense;
     std::vector<RigWord> roots;
-    /// The same pencil as elements. They find eight shapes at a time; without them (null) one shape
-    /// is found at a time.
+    /// The same pencil as elements: with them eight shapes are found at a time, without them (null)
+    /// one.
     std::shared_ptr<const pencil::ElementPencil<RigWord, Spins>> elements{};
 
     /// Returns shapes of `count` modes from index `from` on; see `found_shapes`.

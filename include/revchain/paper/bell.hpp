@@ -43,6 +43,11 @@ struct BellNumbers {
         using std::ldexp;
         return ldexp(static_cast<T>(x), exponent);
     }
+    ByBellDatum<T> data() const {
+        return {
+            clapper.weight, clapper.centroid,        radius_of_gyration(clapper), bell.weight, pin,
+            bell.centroid,  radius_of_gyration(bell)};
+    }
 };
 
 /// The modes of a clapper whose pin is in the axle: each swings alone. Their order and ratios are
@@ -59,13 +64,7 @@ BellAndClapper<T> apart(const BellNumbers<T>& n) {
                              n.length(clapper_first ? l2 : n.l1)};
     result.inclination_ratio = {clapper_first ? infinite : T(0), clapper_first ? T(0) : -infinite};
     result.silent_height = n.length(n.l1), result.mismatch = none;
-    result.present = {n.clapper.weight,
-                      n.clapper.centroid,
-                      radius_of_gyration(n.clapper),
-                      n.bell.weight,
-                      n.pin,
-                      n.bell.centroid,
-                      radius_of_gyration(n.bell)};
+    result.present = n.data();
     result.derivative.fill(none);
     return result;
 }
@@ -114,13 +113,7 @@ BellAndClapper<T> bell_and_clapper(const Chain<T>& chain,
     result.inclination_ratio = {static_cast<T>(r), static_cast<T>(other)};
     result.silent_height = n.length(n.l1 + n.a2);
     result.mismatch = n.length(n.h1 - slope - n.moment);
-    result.present = {n.clapper.weight,
-                      n.clapper.centroid,
-                      radius_of_gyration(n.clapper),
-                      n.bell.weight,
-                      n.pin,
-                      n.bell.centroid,
-                      radius_of_gyration(n.bell)};
+    result.present = n.data();
     // dr/dx = -(dG/dx)/(dG/dr)
     const S m1 = n.moment / n.a2, lean = n.l1 / n.a2 * r + one, radius1 = sqrt(n.square1),
             radius2 = sqrt(n.square2);

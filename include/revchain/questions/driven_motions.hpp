@@ -64,7 +64,7 @@ class DrivenMotions {
         return !system_.inertia || known + (system_.rests ? 1 : 0) == system_.exponents();
     }
 
-    /// What an amplitude times something is worth with that of its conjugate.
+    /// Returns x, the part of one motion, plus the part of the conjugate motion if there is one.
     Complex counted(const Motion& each, const Complex& x) const {
         return system_.momentum ? x : Complex(each.times * x.real(), 0.0);
     }
@@ -211,8 +211,8 @@ class DrivenMotions {
         defect = std::max({between(sums[0], start_), between(sums[1], start_rate_),
                            between(pencil::applied(system_.pencil(), mass, sums[2]), load)});
     }
-    /// What the motions leave of the response at a real s beyond all exponents, where K + s C + s^2 M
-    /// is regular, is that of parts without inertia.
+    /// Sets the response of parts without inertia: the whole response less that of the motions, both
+    /// at a real s beyond all exponents, where K + s C + s^2 M is regular.
     void set_at_once() {
         const auto& pencil = system_.pencil();
         double beyond = 1;
@@ -244,7 +244,7 @@ struct ScaledPiece {
     std::array<pencil::Polynomial<double>, 2> load;  ///< what multiplies each load
     Wide<double> begin;
 
-    /// The polynomials from a later time on.
+    /// Returns the same polynomials in the time since `from`.
     std::vector<pencil::Polynomial<double>> shifted(double from) const {
         std::vector<pencil::Polynomial<double>> result;
         for (const auto& p : load)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include "revchain/linear/moved_support.hpp"
 #include "revchain/linear/rig_pencil.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/questions/superposed.hpp"
@@ -26,9 +27,7 @@ Rig swinging(std::string_view place, const Rig& rig) {
                 "links[" + std::to_string(m) +
                     "] is in a fluid that turns; a rig swings in a fluid at rest: write \"still\"",
                 rig.displaced(m).weight);
-    Rigging with = rig.rigging();
-    for (Flywheel& wheel : with.flywheels) wheel.axial_moment = 0.0;
-    return {rig.chain(), std::move(with)};
+    return without_axial_moments(rig);
 }
 
 /// Returns the modes of a rig. Throws InvalidArgument if small offsets grow or have no restoring

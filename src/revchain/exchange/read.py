@@ -312,7 +312,7 @@ class _Model:
             self._refuse("an actuator acts without a signal, as its ctrlrange does not contain 0; take it away")
 
     def _carriage(self, body: int) -> dict[str, Any]:
-        """What a `Support` has of a body that slides; empty where there is none."""
+        """The arguments of a `Support` for a body that slides; empty if the body does not slide."""
         model, joints = self.model, self._joints(body)
         if not joints or any(model.jnt_type[j] != self.slide for j in joints):
             return {}

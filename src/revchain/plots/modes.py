@@ -396,7 +396,7 @@ def _draw_mode(ax: Axes, modes: Modes, straight: Straight, row: int, shape: Floa
     if 0 < nodes.size <= MOST_PINS_AS_DOTS:
         along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(straight.level)))])
         ax.plot(np.full(nodes.size, axis), np.interp(nodes, along, straight.level), **RING)
-    if system._support is not None and np.isfinite(system._support.stiffness):
+    if system._support is not None and system._support._yields:
         ax.plot([axis, axis + shape[-1]], [0.0, 0.0], color="0.3", linewidth=1.0, zorder=3)
         ax.plot(axis + shape[-1], 0.0, marker="s", **{**SUPPORT, "markersize": 6.0})
     else:
@@ -435,7 +435,7 @@ def draw_spring(ax: Axes, start: float, end: float, tall: float) -> None:
 def _draw_support(support: Support, ax: Axes, straight: Straight, across: float) -> None:
     """Draw the support of the uppermost pin: a firm point, a spring, an arm."""
     level = straight.level
-    yields = bool(np.isfinite(support.stiffness))
+    yields = support._yields
     wall = -0.65 if support.radius and yields else -1.0 - straight.beside()  # the spring starts where the arm ends
     if support.radius:
         ax.plot([-1.0, -1.0], [level.max(), level.min()], **AXIS)

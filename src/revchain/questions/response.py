@@ -153,7 +153,7 @@ def response(
         "pins": which,
         **{name: drive.get(name) for name in drives},
     }
-    if "force" in drive and (support is None or not np.isfinite(support.stiffness)):
+    if "force" in drive and (support is None or not support._yields):
         raise ValueError(
             f"{caller}: force needs a support that yields, Support(stiffness=) or Support(mass=); a firm one does not move, got "
             f"{drive['force']:g}"

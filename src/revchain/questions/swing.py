@@ -211,7 +211,7 @@ def _transient(
         None if given is None else np.asarray(_start(name, given, system, turns), np.complex128)
         for name, given in (("offset", offset), ("velocity", velocity))
     ]
-    if support is not None and support._what == "force" and (system._support is None or not np.isfinite(system._support.stiffness)):
+    if support is not None and support._what == "force" and (system._support is None or not system._support._yields):
         raise ValueError(
             f"{_CALLER}: support must not be a force on a firm support, which does not move; give Support(stiffness=) or "
             f"Support(mass=), or velocities, got {support!r}"

@@ -138,7 +138,7 @@ def _swing(table: Table, given: Given, system: System | None, numbers: Numbers) 
     if system is None or system._is_cord or system._is_held:
         return
     support = system._support
-    yields = support is not None and math.isfinite(support.stiffness)
+    yields = support is not None and support._yields
     if yields and support is not None and support.stiffness == 0 and moved and "force" not in moved:
         yields = False  # the trolley is moved itself
     moving = system.size + yields

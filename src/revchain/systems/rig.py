@@ -162,6 +162,10 @@ class Support(_Fitting):
         return float(self._given.get("damping", 0.0))
 
     @property
+    def _yields(self) -> bool:
+        return math.isfinite(self.stiffness)
+
+    @property
     def radius(self) -> float:
         """Radius of the circle in which the support is carried round, m."""
         return float(self._given.get("radius", 0.0))

@@ -19,8 +19,8 @@ class SupportMotion(_Fitting):
     """How a support is moved in time: a trolley that brakes, a ship that rolls, a shaker; or how it is pushed.
 
     Give the times and one of the next four. Velocities, accelerations and forces are joined by straight lines, offsets by
-    a cubic spline. Before the first time and after the last there is no acceleration (or force): a support whose velocity is
-    not 0 then goes on.
+    a cubic spline. Before the first time and after the last there is no acceleration (or force); a support that still
+    moves goes on at its velocity.
 
     Parameters
     ----------
@@ -101,7 +101,7 @@ class SupportMotion(_Fitting):
 
     @property
     def _what(self) -> str:
-        """What is given: "velocity", "acceleration", "offset" or "force"."""
+        """The quantity given: "velocity", "acceleration", "offset" or "force"."""
         return next(name for name in KINDS if name in self._given)
 
 

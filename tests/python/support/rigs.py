@@ -368,7 +368,7 @@ def first_order(motions, friction=0.0, drag=0.0):
 
 
 def exponents(motions, **damping):
-    """Of small motions, over the speed, less those of a support all but without mass."""
+    """Exponents of small motions over the speed; those of a nearly massless support, at least 1e5, are left out."""
     with mp.workdps(40):
         found = mp.eig(first_order(motions, **damping), left=False, right=False)
         return [s for s in found if abs(s) < 1e5]

@@ -32,11 +32,7 @@ std::optional<Judgement> judged_damped_in(StabilityFrame frame, const DisturbedI
                  air = std::ldexp(1.0, units.length_exponent - units.weight_exponent);
     const double rounding = as_double(std::numeric_limits<S>::epsilon());
     const auto size = [](const Matrix<S>& of) { return as_double(of.norm()); };
-    struct Mode {
-        Complex exponent;
-        double internal, external, error;
-    };
-    std::vector<Mode> list;
+    std::vector<JudgedMode> list;
     const Index count = modes->s.size();
     pencil::ComplexColumns<S> r = y;  // s y
     for (Index j = 0; j < count; ++j) {
@@ -81,22 +77,13 @@ std::optional<Judgement> judged_damped_in(StabilityFrame frame, const DisturbedI
     }
     bool grows = false, decays = true;
     const double lost = 5e-11 * std::max(1.0, as_double(count) / 32);
-    for (const Mode& mode : list) {
+    for (const JudgedMode& mode : list) {
         grows = grows || mode.exponent.real() > mode.error;
         decays = decays && mode.exponent.real() < -mode.error;
         judgement.is_spoilt |=
             mode.error > lost * std::min(largest, 100 * std::max(1.0, std::abs(mode.exponent)));
     }
-    const auto parts = [](const Mode& of) {
-        return std::pair(of.exponent.imag(), of.exponent.real());
-    };
-    std::sort(list.begin(), list.end(),
-              [&](const Mode& one, const Mode& other) { return parts(one) < parts(other); });
-    for (const Mode& mode : list) {
-        result.exponents.push_back(mode.exponent), result.exponent_error.push_back(mode.error);
-        result.internal_damping.push_back(mode.internal);
-        result.external_damping.push_back(mode.external);
-    }
+    store(result, std::move(list));
     set_verdict(result, framed, d,
                 grows    ? Verdict::unstable
                 : decays ? Verdict::spectrally_stable

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <algorithm>
+#include <complex>
+#include <utility>
+#include <vector>
+
 #include "revchain/finite/stability/disturbed.hpp"
 #include "revchain/finite/stability/forms.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/stability.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
@@ -15,6 +21,27 @@ struct Judgement {
     Stability stability;
     bool is_spoilt = false;
 };
+
+/// An exponent, the effect of a unit of damping on it, and its error.
+struct JudgedMode {
+    std::complex<double> exponent;
+    double internal, external, error;
+};
+
+/// Fills in the exponents, by imaginary part.
+REVCHAIN_LAZY
+void store(Stability& result, std::vector<JudgedMode> list) {
+    const auto parts = [](const JudgedMode& x) {
+        return std::pair(x.exponent.imag(), x.exponent.real());
+    };
+    std::sort(list.begin(), list.end(),
+              [&](const JudgedMode& x, const JudgedMode& y) { return parts(x) < parts(y); });
+    for (const JudgedMode& mode : list) {
+        result.exponents.push_back(mode.exponent), result.exponent_error.push_back(mode.error);
+        result.internal_damping.push_back(mode.internal);
+        result.external_damping.push_back(mode.external);
+    }
+}
 
 /// The forms of a disturbed shape in a frame. Without torque about the axis the angular momentum is
 /// constant, which removes the rotation.

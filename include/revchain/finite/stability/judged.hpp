@@ -61,11 +61,7 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
                  rounding = as_double(std::numeric_limits<S>::epsilon());
     std::vector<std::complex<double>> square;
     std::vector<double> error;
-    struct Mode {
-        std::complex<double> exponent;
-        double internal, external, error;
-    };
-    std::vector<Mode> list;
+    std::vector<JudgedMode> list;
     for (Index j = 0; j < modes.square.size(); ++j) {
         const std::complex<S> of = modes.square[j], two(S(2));
         const auto form = [&](const Matrix<S>& A, const Matrix<S>& B, const Matrix<S>& M) {
@@ -122,16 +118,7 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
                      near = std::min(largest, 100 * std::max(1.0, std::sqrt(far)));
         judgement.is_spoilt |= error_of_root(far, error[j]) > lost * near;
     }
-    const auto parts = [](const Mode& x) {
-        return std::pair(x.exponent.imag(), x.exponent.real());
-    };
-    const auto before = [&](const Mode& x, const Mode& y) { return parts(x) < parts(y); };
-    std::sort(list.begin(), list.end(), before);
-    for (const Mode& mode : list) {
-        result.exponents.push_back(mode.exponent), result.exponent_error.push_back(mode.error);
-        result.internal_damping.push_back(mode.internal),
-            result.external_damping.push_back(mode.external);
-    }
+    store(result, std::move(list));
     set_verdict(result, framed, d, verdict_by(square, error, modes.is_symmetric));
     return judgement;
 }

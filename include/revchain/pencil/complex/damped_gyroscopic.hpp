@@ -29,26 +29,15 @@ std::optional<DampedGyroscopicModes<S>> damped_gyroscopic_modes(const Gyroscopic
     rate.bottomLeftCorner(k, n) = S(2) * pencil.B.transpose();
     const Eigen::LLT<Matrix<S>> root(mass);
     if (root.info() != Eigen::Success) return std::nullopt;
-    const auto reduced = [&](const Matrix<S>& middle) {
-        Matrix<S> half = root.matrixL().solve(middle);
-        half.transposeInPlace();
-        return Matrix<S>(Matrix<S>(root.matrixL().solve(half)).transpose());
-    };
     Matrix<S> T = Matrix<S>::Zero(2 * all, 2 * all);
     T.topRightCorner(all, all).setIdentity();
-    T.bottomLeftCorner(all, all) = -reduced(stiffness);
-    T.bottomRightCorner(all, all) = -reduced(rate);
+    T.bottomLeftCorner(all, all) = -reduced(root, stiffness, root);
+    T.bottomRightCorner(all, all) = -reduced(root, rate, root);
     const Eigen::EigenSolver<Matrix<S>> solver(T);
-    const Matrix<S> parts = solver.pseudoEigenvectors();  // of a pair: real, imaginary
     DampedGyroscopicModes<S> modes{solver.eigenvalues(), {}, {}};
-    Matrix<S> real(all, 2 * all), imag = Matrix<S>::Zero(all, 2 * all);
-    for (Index j = 0; j < 2 * all; ++j) {
-        const bool first = modes.s[j].imag() > S(0), second = modes.s[j].imag() < S(0);
-        real.col(j) = parts.col(second ? j - 1 : j).head(all);
-        if (first) imag.col(j) = parts.col(j + 1).head(all);
-        if (second) imag.col(j) = -parts.col(j).head(all);
-    }
-    real = Matrix<S>(root.matrixU().solve(real)), imag = Matrix<S>(root.matrixU().solve(imag));
+    const ComplexColumns<S> state = eigenvectors(solver);  // with its rates below
+    const Matrix<S> real = root.matrixU().solve(Matrix<S>(state.real.topRows(all))),
+                    imag = root.matrixU().solve(Matrix<S>(state.imag.topRows(all)));
     modes.x = {real.topRows(n), imag.topRows(n)};
     modes.y = {real.bottomRows(k), imag.bottomRows(k)};
     return modes;

@@ -38,6 +38,29 @@ struct ComplexColumns {
     Matrix<S> real, imag;
 };
 
+/// Returns the eigenvectors of a real matrix.
+template <class S>
+ComplexColumns<S> eigenvectors(const Eigen::EigenSolver<Matrix<S>>& solver) {
+    const Matrix<S> parts = solver.pseudoEigenvectors();  // of a pair: real, imaginary
+    ComplexColumns<S> columns{parts, Matrix<S>::Zero(parts.rows(), parts.cols())};
+    for (Index j = 0; j < parts.cols(); ++j) {
+        const S imag = solver.eigenvalues()[j].imag();
+        if (imag < S(0)) columns.real.col(j) = parts.col(j - 1);
+        if (imag > S(0)) columns.imag.col(j) = parts.col(j + 1);
+        if (imag < S(0)) columns.imag.col(j) = -parts.col(j);
+    }
+    return columns;
+}
+
+/// Returns L^-1 middle R^-T for roots L and R.
+template <class S>
+Matrix<S> reduced(const Eigen::LLT<Matrix<S>>& left, const Matrix<S>& middle,
+                  const Eigen::LLT<Matrix<S>>& right) {
+    Matrix<S> half = left.matrixL().solve(middle);
+    half.transposeInPlace();
+    return Matrix<S>(Matrix<S>(right.matrixL().solve(half)).transpose());
+}
+
 /// Squares of the exponents s, estimates of their rounding errors, and columns x and s y.
 template <class S>
 struct GyroscopicModes {
@@ -62,11 +85,6 @@ std::optional<GyroscopicModes<S>> gyroscopic_modes(const GyroscopicPencil<S>& pe
     const Index n = pencil.K.rows(), k = pencil.C.rows();
     const Eigen::LLT<Matrix<S>> root(pencil.A), other(pencil.M);
     if (root.info() != Eigen::Success || other.info() != Eigen::Success) return std::nullopt;
-    const auto reduced = [](const auto& left, const Matrix<S>& middle, const auto& right) {
-        Matrix<S> half = left.matrixL().solve(middle);
-        half.transposeInPlace();
-        return Matrix<S>(Matrix<S>(right.matrixL().solve(half)).transpose());
-    };
     const Matrix<S> K = reduced(root, pencil.K, root), B = reduced(root, pencil.B, other);
     const Matrix<S> C = reduced(other, pencil.C, other);
     Matrix<S> Q(n + k, n + k);
@@ -95,15 +113,8 @@ std::optional<GyroscopicModes<S>> gyroscopic_modes(const GyroscopicPencil<S>& pe
         for (Index i = 0; i < n + k; ++i) T.col(i) *= unit[i], T.row(i) /= unit[i];
         const Eigen::EigenSolver<Matrix<S>> solver(T);
         modes.square = solver.eigenvalues();
-        const Matrix<S> parts = solver.pseudoEigenvectors();  // of a pair: real, imaginary
-        ComplexColumns<S> right = u, left;
-        for (Index j = 0; j < n + k; ++j) {
-            const bool first = modes.square[j].imag() > S(0),
-                       second = modes.square[j].imag() < S(0);
-            right.real.col(j) = parts.col(second ? j - 1 : j);
-            if (first) right.imag.col(j) = parts.col(j + 1);
-            if (second) right.imag.col(j) = -parts.col(j);
-        }
+        const ComplexColumns<S> right = eigenvectors(solver);
+        ComplexColumns<S> left;
         const auto in_units = [&](Matrix<S> of) {
             for (Index i = 0; i < n + k; ++i) of.row(i) *= unit[i];
             return of;

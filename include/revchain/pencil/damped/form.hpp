@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "revchain/numeric/compiled.hpp"
 #include "revchain/pencil/jointed.hpp"
 
 /// The family Q(s) = K + s (C - i G) + s^2 M of a rig with dashpots, and what its moving support
@@ -45,9 +44,5 @@ struct MovedTogether {
         }
     }
 };
-
-/// Returns true if the last unknown is the offset of a support that yields.
-REVCHAIN_LAZY
-bool yields(const DampedPencil& pencil) { return pencil.joints.back().lever == Wide<double>(0.0); }
 
 }  // namespace revchain::pencil
