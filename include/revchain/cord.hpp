@@ -26,8 +26,11 @@
 ///     shapes.shapes.size();                // 2 shapes at finite amplitude: all there are
 ///     const revchain::Cord line(2.0, {.weight = 0.5, .density = 1.0, .tip_weight = 3.0});
 ///
+///     const revchain::Cord clasped(1.8, {.weight = 0.177, .weights = {{1.2173, 2.94}}});
+///
 /// Arc lengths are measured from the free end. `CordOptions` has the weight, the density (a power
-/// of the arc length, or a function of it) and a tip weight. `steady_shapes` and its results are
+/// of the arc length, or a function of it), weights of particles on the cord, and a particle or a
+/// bob that turns at its end. `steady_shapes` and its results are
 /// declared in finite/cord/continuous_chain.hpp, which needs no GSL. For a cord held at both ends
 /// see `Held` (held.hpp). Greenhill (1908) §4; closed forms in special/heavy_chain.hpp,
 /// special/tapered_chain.hpp and special/tip_mass.hpp.
@@ -52,14 +55,18 @@ struct CordModes {
     /// with a density function; for a vector of s much less each.
     [[nodiscard]] double offset(Index j, double s) const;
     [[nodiscard]] Vector<double> offset(Index j, const Vector<double>& s) const;
-    /// d offset / ds, -1 / lambda at a free end. Throws and costs as `offset`.
+    /// d offset / ds, -1 / lambda at a free end without a bob; at a particle, above it. Throws and
+    /// costs as `offset`.
     [[nodiscard]] double slope(Index j, double s) const;
     [[nodiscard]] Vector<double> slope(Index j, const Vector<double>& s) const;
-    /// Arc lengths at which the mode at index j crosses the axis, ascending. Held ends are not
-    /// listed.
+    /// d offset / ds along the bob, its inclination. Throws InvalidArgument for a cord without one.
+    [[nodiscard]] double bob_slope(Index j) const;
+    /// Arc lengths at which the mode at index j crosses the axis, ascending. Held ends, and where
+    /// the line of a bob crosses it, are not listed.
     [[nodiscard]] Vector<double> nodes(Index j) const;
     /// Arc lengths at which the mode is vertical, ascending, one above each node: the part below
-    /// has its centre of gravity on the axis. Between held ends, one is below each node and one
+    /// has its centre of gravity on the axis. Where the cord turns back at a particle, that is the
+    /// place. Between held ends, one is below each node and one
     /// below the upper end.
     [[nodiscard]] Vector<double> vertical_points(Index j) const;
     /// n = sqrt(g / lambda), rad/s.
@@ -118,8 +125,10 @@ REVCHAIN_DECLARE_ANALYTIC
 struct CordSensitivity {
     Index first = 1;
     Vector<double> length;      ///< of the whole cord; its density stretches with it
-    Vector<double> weight;      ///< of the cord without its tip; its distribution is constant
+    Vector<double> weight;      ///< of the cord without tip and particles; its distribution is
+                                ///< constant
     Vector<double> tip_weight;  ///< 0 for a cord held at both ends
+    Table<double> weights;      ///< (k, n) of each particle, from the free end
     Vector<double> exponent;    ///< of the density, at constant weight; NaN for a density function
     Vector<double> tension;     ///< at the upper end; 0 for a cord that hangs
 };

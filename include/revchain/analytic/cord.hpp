@@ -85,10 +85,11 @@ CordMethod method_for(const StraightCord& straight) {
     const Cord& cord = straight.cord;
     if (straight.held && straight.held->weightless)
         return {"half waves of a string", 2 * ulp, true};
+    if (cord.has_bob()) return {"power series", 4e-15, false};
     if (!straight.held && cord.is_uniform() && cord.tip_weight() == 0)
         return {"zeros of J_0", 3 * ulp, true};
     if (cord.is_uniform()) return {"zeros of a cross product of Bessel functions", 2 * ulp, true};
-    if (cord.exponent() && cord.tip_weight() == 0) return {"zeros of J_p", 3 * ulp, true};
+    if (cord.is_power() && cord.tip_weight() == 0) return {"zeros of J_p", 3 * ulp, true};
     return {"power series", 4e-15, false};
 }
 
@@ -235,6 +236,15 @@ REVCHAIN_INLINE_ANALYTIC double CordModes::slope(Index j, double s) const {
                              [&](const auto& m) { return m.slope(s); });
 }
 
+REVCHAIN_INLINE_ANALYTIC double CordModes::bob_slope(Index j) const {
+    if (!cord.has_bob())
+        detail::throw_invalid("CordModes::bob_slope", "the cord has no bob: give a tip centroid");
+    return detail::with_mode("CordModes::bob_slope", *this, j, [](const auto& mode) {
+        if constexpr (requires { mode.bob_slope(); }) return mode.bob_slope();
+        return 0.0;  // closed forms have none
+    });
+}
+
 REVCHAIN_INLINE_ANALYTIC Vector<double> CordModes::nodes(Index j) const {
     return detail::with_mode("CordModes::nodes", *this, j,
                              [](const auto& mode) { return mode.nodes(); });
@@ -271,6 +281,7 @@ REVCHAIN_DEFINE_ANALYTIC
 CordBranch branch(const Cord& cord, const BranchOptions& options) {
     const double height = finite::lowest_height("branch", options);
     detail::require_positive("branch", "max_step", options.max_step);
+    cord.require_no_bob("branch");
     finite::length_in_heights("branch", cord.length(), height);
     const double critical = detail::critical_height("branch", cord, options.mode);
     if (!(height < critical))
@@ -287,6 +298,7 @@ CordBranches branches(const Cord& cord, const CordDiagramOptions& options) {
     const double height = finite::lowest_height("branches", options);
     finite::length_in_heights("branches", cord.length(), height);
     detail::require_positive("branches", "max_step", options.max_step);
+    cord.require_no_bob("branches");
     if (options.lists < 1)
         detail::throw_invalid("branches", "lists must be at least 1", options.lists);
     Index count = count_modes(cord, {.conical_height = height});
@@ -299,6 +311,7 @@ CordBranches branches(const Cord& cord, const CordDiagramOptions& options) {
 REVCHAIN_DEFINE_ANALYTIC
 CordShapesOnBranch shapes_on_branch(const Cord& cord, const OnBranchOptions& options,
                                     std::size_t max_shapes) {
+    cord.require_no_bob("steady_shape");
     const double critical = detail::critical_height("steady_shape", cord, options.mode);
     return finite::search_branch(cord, critical, options, max_shapes);
 }
@@ -323,6 +336,7 @@ CordSwing swing(const Cord& cord, const CordSwingOptions& options) {
     using namespace detail;
     constexpr std::string_view place = "swing";
     require_positive(place, "gravity", options.gravity);
+    cord.require_no_bob(place);
     if (options.count < 1 || options.count > 10'000)
         throw_invalid(place, "count must be from 1 to 10000", options.count);
     for (const double t : options.time)

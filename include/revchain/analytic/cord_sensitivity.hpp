@@ -47,7 +47,9 @@ double by_tension(const CordModes& modes, Index j, double lower) {
 REVCHAIN_DEFINE_ANALYTIC
 CordSensitivity sensitivity(const CordModes& modes) {
     const Cord& cord = modes.cord;
+    cord.require_no_bob("sensitivity");
     CordSensitivity result;
+    result.weights.setZero(modes.size(), static_cast<Index>(cord.weights().size()));
     result.first = modes.first, result.length = modes.conical_height / cord.length();
     for (Vector<double>* v :
          {&result.weight, &result.tip_weight, &result.exponent, &result.tension})
@@ -64,6 +66,9 @@ CordSensitivity sensitivity(const CordModes& modes) {
     }
     const auto nodes = detail::nodes_of(cord, {}, nullptr, modes.first + modes.size());
     const Vector<double> at = nodes.arcs();
+    Vector<double> places(result.weights.cols()), weights(result.weights.cols());
+    for (Index p = 0; const auto& [s, weight] : cord.weights())
+        places[p] = s, weights[p++] = weight;
     for (Index j = 0; j < modes.size(); ++j) {
         const Vector<double> offset = modes.offset(j, at), slope = modes.slope(j, at);
         const double height = modes.conical_height[j];
@@ -74,12 +79,17 @@ CordSensitivity sensitivity(const CordModes& modes) {
             const double form = -share * (2 * offset[i] + height * slope[i]);
             const double part = at[i] / cord.length();
             whole += share * slope[i] * nodes.below[k], tip += form;
+            for (Index p = 0; p < places.size() && places[p] < at[i]; ++p)
+                result.weights(j, p) += form;
             if (cord.exponent())
                 exponent += form * std::pow(part, *cord.exponent() + 1) * std::log(part);
         }
+        result.weights.row(j) /= whole;
         result.tip_weight[j] = tip / whole, result.exponent[j] = exponent * cord.weight() / whole;
     }
-    result.weight = -cord.tip_weight() / cord.weight() * result.tip_weight;
+    // heights depend on ratios of the weights alone
+    result.weight =
+        -(cord.tip_weight() * result.tip_weight + result.weights * weights) / cord.weight();
     if (!cord.exponent()) result.exponent.setConstant(std::numeric_limits<double>::quiet_NaN());
     return result;
 }

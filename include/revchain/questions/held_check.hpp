@@ -36,9 +36,10 @@ void Held<System>::check() const {
     }
     if constexpr (std::is_same_v<System, Cord>)
         if (!system_.is_uniform() || system_.tip_weight() != 0)
-            detail::throw_invalid("Held",
-                                  "a held cord must be uniform and without tip weight; for others "
-                                  "cut it into links, as Chain::tapered does");
+            detail::throw_invalid(
+                "Held",
+                "a held cord must be uniform, without particles and tip weight; for others "
+                "cut it into links, as Chain::tapered does");
 }
 
 /// Checks the support of one end. `name` is "lower" or "upper".

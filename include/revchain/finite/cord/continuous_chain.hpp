@@ -69,21 +69,36 @@ struct ContinuousChain {
     double length, tip;                          ///< tip: length of cord with the weight of the tip
     std::shared_ptr<const LineDensity> density;  ///< null for a uniform cord
     double line_weight;
-    bool is_counted;  ///< a theorem applies: one shape for each critical height
+    PathKind::Bob bob;  ///< of the tip, in the unit of the length
+    bool is_counted;    ///< a theorem applies: one shape for each critical height
 
     explicit ContinuousChain(const Cord& cord)
         : length(cord.length()),
           tip(cord.tip_length()),
           density(cord.line_density()),
           line_weight(cord.line_weight()),
-          is_counted(cord.exponent() && (cord.tip_weight() == 0 || *cord.exponent() <= 0)) {}
+          bob{cord.tip_centroid(), lever_of(cord)},
+          is_counted(cord.is_power() && !cord.has_bob() &&
+                     (cord.tip_weight() == 0 || *cord.exponent() <= 0)) {}
+
+   private:
+    static double lever_of(const Cord& cord) {
+        const double k = cord.tip_radius_of_gyration();
+        return cord.has_bob() ? cord.tip_centroid() + k * k / cord.tip_centroid() : 0.0;
+    }
 };
 
 /// Returns the chain with lengths over `height`; bend is 0 for small amplitude.
 REVCHAIN_LAZY
 PathKind kind_of(const ContinuousChain& chain, double height, double bend) {
     const double mean = chain.density == nullptr ? 1.0 : chain.density->mean();
-    return {chain.tip / height, height, mean, chain.density.get(), bend, chain.line_weight};
+    return {chain.tip / height,
+            height,
+            mean,
+            chain.density.get(),
+            bend,
+            chain.line_weight,
+            {chain.bob.centroid / height, chain.bob.lever / height}};
 }
 
 REVCHAIN_LAZY
@@ -220,7 +235,9 @@ Vector<double> critical_heights(const ContinuousChain& chain, Index count) {
     }
     for (Index j = 1; j <= count; ++j) {
         const auto excess = [&](double height) {
-            return std::log(place_of(height, j).back().arc * height / chain.length);
+            // a bob that is across the axis has crossed it below the cord
+            const double arc = place_of(height, j).back().arc;
+            return std::log(std::max(arc * height / chain.length, 1e-12));
         };
         const double guess = j == 1 ? chain.length : heights[j - 2];
         heights[j - 1] = detail::zero_between(detail::sign_change_near(guess, excess), excess,
@@ -247,30 +264,38 @@ class CordModeShape {
     CordModeShape(const ContinuousChain& chain, double height, Index mode)
         : chain_(chain),
           height_(height),
-          path_(path_at_rest(chain_, height, {.crossings = static_cast<int>(mode)})) {}
+          path_(path_at_rest(chain_, height, {.crossings = static_cast<int>(mode)})),
+          tip_(path_.kind().at_tip(1)) {}
 
     /// Returns the offset at distance s from the free end; 1 at that end.
-    double shape(double s) const { return state("CordModes::offset", s).offset; }
-    /// Returns d offset / ds at s; -1 / height at the free end.
-    double slope(double s) const { return slope(state("CordModes::slope", s)); }
+    double shape(double s) const { return state("CordModes::offset", s).offset / tip_.offset; }
+    /// Returns d offset / ds at s; -1 / height at the free end unless a bob hangs there.
+    double slope(double s) const { return slope(state("CordModes::slope", s)) / tip_.offset; }
+    /// Returns the inclination of the bob, d offset / ds along it.
+    double bob_slope() const { return -1 / (height_ * tip_.offset); }
     /// Returns where the cord crosses the axis, ascending, without the support.
-    Vector<double> nodes() const {
-        Vector<double> points(static_cast<Index>(path_.crossings().size()) - 1);
-        for (Index i = 0; i < points.size(); ++i)
-            points[i] = path_.crossings()[static_cast<std::size_t>(i)].arc * height_;
-        return points;
-    }
+    Vector<double> nodes() const { return crossings(tip_.offset < 0 ? 1 : 0); }
     /// Returns where the cord is vertical, once above each node: T y'' = -rho (y / height + y').
+    /// Where it turns back at a particle, that is the place.
     Vector<double> vertical_points() const {
-        return detail::zeros_between(nodes(), chain_.length, [&](double s) {
+        // a bob across the axis may be across its own vertical point too
+        const bool passed = tip_.offset < 0 && tip_.pull > 0;
+        const double sign = passed ? -1 : 1;
+        return detail::zeros_between(crossings(passed ? 1 : 0), chain_.length, [&](double s) {
             const PathState at = state("CordModes::vertical_points", s);
-            const double steep = slope(at),
+            const double steep = sign * slope(at),
                          part = path_.kind().density_at(at.arc) / path_.kind().weight_below(at.arc);
-            return std::pair(steep, -part * (at.offset / height_ + steep) / height_);
+            return std::pair(steep, -part * (sign * at.offset / height_ + steep) / height_);
         });
     }
 
    private:
+    Vector<double> crossings(std::size_t first) const {
+        Vector<double> points(static_cast<Index>(path_.crossings().size() - 1 - first));
+        for (Index i = 0; i < points.size(); ++i)
+            points[i] = path_.crossings()[first + static_cast<std::size_t>(i)].arc * height_;
+        return points;
+    }
     PathState state(std::string_view place, double s) const {
         if (!(s >= 0 && s <= chain_.length))
             detail::throw_invalid(place, "s must lie between 0 (free end) and the length", s);
@@ -284,6 +309,7 @@ class CordModeShape {
     ContinuousChain chain_;
     double height_;
     Path path_;
+    PathState tip_;
 };
 
 }  // namespace finite

@@ -60,10 +60,11 @@ CordPlace place_of(const CordShape& shape, const PathState& x) {
 REVCHAIN_LAZY
 PathState state_at(const PathKind& kind, const std::vector<Path::Step>& steps, double tip_offset,
                    double arc) {
-    const auto after =
-        std::upper_bound(steps.begin() + 1, steps.end(), arc,
-                         [](double x, const Path::Step& step) { return x < step.start.arc; });
+    const auto after = std::upper_bound(
+        steps.begin() + 1, steps.end(), arc,
+        [](double x, const Path::Step& step) { return x * (1 + 0x1p-48) < step.start.arc; });
     const Path::Step& step = *(after - 1);
+    arc = std::max(arc, step.start.arc);
     if (kind.is_bare() && &step == &steps.front())
         return TipSeries(step.start.offset, kind.bend).state(arc);
     if (arc < steps.front().start.arc) return Path::near_tip(kind, tip_offset, arc);

@@ -38,8 +38,9 @@ class Path {
     template <class Visit>
     Path(const PathKind& kind, double tip_offset, const Options& options, Visit&& visit)
         : kind_(kind) {
-        PathState state{0, tip_offset, -kind.tip * tip_offset, 0};
+        PathState state = kind.at_tip(tip_offset);
         PathChange change{0, 1, -kind.tip, 0};
+        if (state.offset < 0) crossings_.push_back({});  // the bob is across the axis
         if (kind.is_bare()) {
             const TipSeries series(tip_offset, kind.bend, options.tolerance);
             steps_.push_back({state, series.reach});
@@ -70,13 +71,18 @@ class Path {
             steps_.push_back({state, duration});
             const bool all_crossed = static_cast<int>(crossings_.size()) >= options.crossings;
             visit(series, all_crossed ? crossings_.back().time : duration);
-            const double tension = kind.tension(next.state.pull, kind.weight_below(next.state.arc));
+            const double particle =
+                             kind.particles_below(next.state.arc) - kind.particles_below(state.arc),
+                         below = kind.weight_below(next.state.arc) - particle,
+                         tension = kind.tension(next.state.pull, below);
             largest_tension_ = std::max(largest_tension_, tension);
             discrepancy_ = std::max(discrepancy_, std::abs(next.tension - tension));
             if (options.with_change)
-                change = at_place(kind, next.state, series.change(duration), series, duration);
+                change =
+                    at_place(kind, next.state, below, series.change(duration), series, duration);
             if (!(next.state.arc > state.arc)) break;  // a density too rough to follow
             state = next.state;
+            state.pull -= particle * state.offset, change.pull -= particle * change.offset;
         }
         end_ = state.arc;
     }
@@ -98,13 +104,15 @@ class Path {
     }
     /// Returns the state near the free end for a density like s^p, with errors of order s^2.
     static PathState near_tip(const PathKind& kind, double tip_offset, double s) {
+        const PathState tip = kind.at_tip(tip_offset);
+        if (s == 0) return tip;
         const double secant = std::sqrt(1 + kind.bend * tip_offset * tip_offset);
-        if (s == 0) return {0, tip_offset, -kind.tip * tip_offset, 0};
         const double below = kind.weight_below(s) - kind.tip,
                      moment = kind.density->first_moment(s * kind.unit);
-        return {s, tip_offset - tip_offset * s / secant,
-                -kind.tip * tip_offset - below * tip_offset * (1 - s * moment / secant),
-                s / secant};
+        // with a tip the slope at the free end is u/V there
+        const double slope = kind.tip > 0 ? tip.pull / kind.tip : -tip_offset;
+        return {s, tip.offset + slope * s / secant,
+                tip.pull - below * (tip.offset + slope * s * moment / secant), s / secant};
     }
 
     /// Returns the derivative of the state `near_tip` by the offset of the free end.
@@ -119,9 +127,10 @@ class Path {
 
    private:
     /// Returns the derivative at fixed arc, not time. A jump of the density does not change it.
-    static PathChange at_place(const PathKind& kind, const PathState& x, const PathChange& change,
-                               const PathSeries& series, double duration) {
-        const double below = kind.weight_below(x.arc), tension = kind.tension(x.pull, below);
+    static PathChange at_place(const PathKind& kind, const PathState& x, double below,
+                               const PathChange& change, const PathSeries& series,
+                               double duration) {
+        const double tension = kind.tension(x.pull, below);
         const double density = kind.density == nullptr ? 1.0 : series.density_at(duration);
         return {0, change.offset - x.pull / tension * change.arc,
                 change.pull + density * x.offset * change.arc,

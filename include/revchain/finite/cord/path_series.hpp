@@ -31,10 +31,25 @@ struct PathKind {
     const LineDensity* density = nullptr;  ///< null: uniform, rho = 1
     double bend = 1;                       ///< 0: small amplitude, T = V
     double line_weight = 1;                ///< mean weight per length, the unit of tensions
+    struct Bob {
+        double centroid = 0;  ///< of the body at the free end, below that end
+        double lever = 0;     ///< (centroid^2 + k^2)/centroid: the length of its equal pendulum
+    } bob{};                  ///< zero for a particle
 
     double weight_below(double arc) const {
         return tip +
                (density == nullptr ? arc : density->weight_below(arc * unit) / (unit * per_length));
+    }
+    /// The weight of the particles at or below a place.
+    double particles_below(double arc) const {
+        return density == nullptr ? 0.0
+                                  : density->particles_below(arc * unit) / (unit * per_length);
+    }
+    /// Returns the start of a path. With a bob, which small motions alone may have, `tip_offset` is
+    /// its inclination, and moments about its pin give the offset.
+    PathState at_tip(double tip_offset) const {
+        const double offset = (1 - bob.lever) * tip_offset;
+        return {0, offset, -tip * (offset + bob.centroid * tip_offset), 0};
     }
     double density_at(double arc) const {
         return density == nullptr ? 1.0 : density->about(arc * unit)[0] / per_length;

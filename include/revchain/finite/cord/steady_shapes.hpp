@@ -9,6 +9,7 @@ namespace revchain::inline REVCHAIN_BUILD {
 REVCHAIN_DEFINE
 CordShapes steady_shapes(const Cord& cord, const CordShapesOptions& options) {
     constexpr std::string_view place = "steady_shapes";
+    cord.require_no_bob(place);
     const double height = detail::height_given(place, options);
     finite::length_in_heights(place, cord.length(), height);
     if (options.scanned < 1)

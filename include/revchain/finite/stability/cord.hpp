@@ -19,31 +19,40 @@ struct CordProfile {
     int half_waves;
     std::vector<double> steps;   ///< ends of steps, ascending, with a smooth shape between
     std::vector<double> pieces;  ///< ends of pieces of the density; empty if uniform
+    std::vector<std::pair<double, double>> particles;     ///< arc and weight, ascending
     std::function<std::array<double, 2>(double)> at;      ///< inclination, lambda times tension
-    std::function<double(double)> density, weight_below;  ///< functions of the arc
+    std::function<double(double)> density, weight_below;  ///< of the arc, without particles
     bool is_held = false;                                 ///< whether the lower end is held too
 };
 
 REVCHAIN_LAZY
 CordProfile profile_of(const CordShape& shape) {
-    CordProfile profile{shape.support_arc, shape.kind.tip, shape.half_waves, {}, {}, {}, {}, {}};
+    CordProfile profile{
+        .length = shape.support_arc, .tip = shape.kind.tip, .half_waves = shape.half_waves};
     for (const Path::Step& step : shape.steps) profile.steps.push_back(step.start.arc);
     if (shape.density)
-        for (const LineDensity::Piece& piece : shape.density->pieces())
-            profile.pieces.push_back((piece.middle + piece.half) / shape.conical_height);
+        for (const LineDensity::Piece& piece : shape.density->pieces()) {
+            const double unit = shape.kind.unit;
+            profile.pieces.push_back(piece.end() / shape.conical_height);
+            if (piece.particle > 0)
+                profile.particles.push_back(
+                    {piece.end() / unit, piece.particle / (unit * shape.kind.per_length)});
+        }
     profile.at = [&shape](double arc) {
         const CordPlace place = shape(std::min(arc * shape.conical_height, shape.length));
         return std::array{place.inclination,
                           place.tension / (shape.conical_height * shape.kind.line_weight)};
     };
     profile.density = [&shape](double arc) { return shape.kind.density_at(arc); };
-    profile.weight_below = [&shape](double arc) { return shape.kind.weight_below(arc); };
+    profile.weight_below = [&shape](double arc) {
+        return shape.kind.weight_below(arc) - shape.kind.particles_below(arc);
+    };
     return profile;
 }
 
 REVCHAIN_LAZY
 CordProfile profile_of(const HeldCordShape& shape) {
-    CordProfile profile{1, 0, shape.half_waves, {}, {}, {}, {}, {}, true};
+    CordProfile profile{.length = 1, .tip = 0, .half_waves = shape.half_waves, .is_held = true};
     for (const HeldCordState& step : shape.steps) profile.steps.push_back(step.arc);
     profile.at = [&shape](double arc) {
         const HeldCordPlace place = shape(std::min(arc * shape.length, shape.length));
@@ -161,7 +170,12 @@ class DisturbedCord {
                          above = shape_.density(at + narrow());
             if (std::abs(above - below) > 0.01 * std::max(above, below)) jumps.push_back(at);
         }
-        if (jumps.size() > most) return;
+        if (jumps.size() > most) jumps.clear();
+        const std::size_t found = jumps.size();
+        for (const auto& [at, weight] : shape_.particles)  // where the cord turns
+            if (std::none_of(jumps.begin(), jumps.begin() + static_cast<std::ptrdiff_t>(found),
+                             [&](double x) { return std::abs(x - at) < narrow(); }))
+                jumps.push_back(at);
         const auto has_jump = [&](double at) {
             return std::any_of(jumps.begin(), jumps.end(),
                                [&](double x) { return std::abs(x - at) < narrow(); });
@@ -198,6 +212,9 @@ class DisturbedCord {
             if (end > from + narrow() && end < high - narrow())
                 add_points(panel, low, high, from, end), from = end;
         add_points(panel, low, high, from, high);
+        for (const auto& [at, weight] : shape_.particles)
+            if (std::abs(at - high) < narrow())
+                points_.push_back({panel, high - low, 1, 0, weight, 0});
     }
     /// Adds points in a part of a panel, with the exact weight of that part.
     void add_points(Index panel, double low, double high, double from, double to) {
