@@ -12,6 +12,7 @@
 #include "shapes.hpp"
 
 #include <pybind11/functional.h>
+#include <pybind11/stl.h>
 
 namespace {
 
@@ -51,8 +52,13 @@ std::shared_ptr<LineDensity> set_state(const py::tuple& state) {
     return std::make_shared<LineDensity>(state[0].cast<double>(), std::move(pieces));
 }
 
-Cord cord_of(double length, std::optional<double> weight, const Density& density, double tip_weight) {
-    revchain::CordOptions options{.weight = weight, .tip_weight = tip_weight};
+Cord cord_of(double length, std::optional<double> weight, const Density& density, double tip_weight,
+             const std::map<double, double>& weights, double tip_centroid, double tip_radius_of_gyration) {
+    revchain::CordOptions options{.weight = weight,
+                                  .tip_weight = tip_weight,
+                                  .weights = weights,
+                                  .tip_centroid = tip_centroid,
+                                  .tip_radius_of_gyration = tip_radius_of_gyration};
     if (const double* exponent = std::get_if<double>(&density))
         options.density = *exponent;
     else
@@ -90,16 +96,20 @@ CordShape blank_shape(const Cord& cord) {
 
 void bind_cord(py::module_& module) {
     py::class_<LineDensity, std::shared_ptr<LineDensity>>(module, "LineDensity", "Weight per length, as polynomials.")
-        .def(py::init<const std::function<double(double)>&, double>(), "weight_per_length"_a, "length"_a)
+        .def(py::init<const std::function<double(double)>&, double, std::vector<double>>(), "weight_per_length"_a,
+             "length"_a, "breaks"_a)
         .def(
             "__call__", [](const LineDensity& density, double s) { return density.about(s)[0]; }, "s"_a)
         .def("weight_below", &LineDensity::weight_below, "s"_a)
+        .def_readonly_static("least_place", &LineDensity::least_place)
         .def(py::pickle(&get_state, &set_state));
     py::class_<Cord>(module, "Cord", "A flexible cord hung from one end; immutable.")
-        .def(py::init(&cord_of), "length"_a, "weight"_a.none(true), "density"_a, "tip_weight"_a)
+        .def(py::init(&cord_of), "length"_a, "weight"_a.none(true), "density"_a, "tip_weight"_a,
+             "weights"_a, "tip_centroid"_a, "tip_radius_of_gyration"_a)
         .def_property_readonly("length", &Cord::length)
         .def_property_readonly("weight", &Cord::weight)
-        .def_property_readonly("tip_weight", &Cord::tip_weight);
+        .def_property_readonly("tip_weight", &Cord::tip_weight)
+        .def_property_readonly("has_bob", &Cord::has_bob);
     auto shapes = bind_shape<CordShape>(module, "CordShape", "A steady shape of a whirling cord.");
     def_column(shapes, "arc_length", &CordShape::arc_length);
     def_column(shapes, "tension", &CordShape::tension);

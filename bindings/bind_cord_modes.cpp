@@ -103,6 +103,12 @@ void bind_cord_modes(py::module_& module) {
         .def_property_readonly("status", [](const CordModes& m) { return std::string(to_string(m.status)); })
         .def("offset", &along<&CordModes::offset>, "arc_length"_a)
         .def("slope", &along<&CordModes::slope>, "arc_length"_a)
+        .def_property_readonly("bob_slope",
+                               [](const CordModes& m) {
+                                   Vector<double> slope(m.size());
+                                   for (Index j = 0; j < m.size(); ++j) slope[j] = m.bob_slope(j);
+                                   return to_numpy(slope);
+                               })
         .def_property_readonly("nodes", &of_modes<&CordModes::nodes>)
         .def_property_readonly("vertical_points", &of_modes<&CordModes::vertical_points>);
     module.def("cord_modes", &modes<Cord>, "cord"_a, "first"_a, "count"_a, "conical_height"_a, "angular_speed"_a,
@@ -114,7 +120,7 @@ void bind_cord_modes(py::module_& module) {
         [](const CordModes& found) {
             const auto s = without_lock([&] { return revchain::sensitivity(found); });
             return py::make_tuple(to_numpy(s.length), to_numpy(s.weight), to_numpy(s.tip_weight), to_numpy(s.exponent),
-                                  to_numpy(s.tension));
+                                  to_numpy(s.tension), to_numpy(s.weights));
         },
         "modes"_a);
     module.def("count_cord_modes", &counts_above<Cord>, "cord"_a, "conical_height"_a,

@@ -176,6 +176,11 @@ CordModes modes_of(const StraightCord& straight, const CordModesOptions& options
             const double density =
                 2 * chain.density->error(from) + chain.density->rounding_at_jumps(from);
             result.error_bound[j] = std::max(method.error_bound, 2e-15 + density);
+            if (straight.cord.weights().empty()) continue;
+            const Index mode = range.first + j;
+            result.error_bound[j] +=
+                2 * epsilon<double>() *
+                finite::condition_of_places(chain, result.conical_height[j], mode);
         }
     }
     for (Index j = 0; method.is_closed && j < range.count; ++j) {

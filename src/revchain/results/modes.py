@@ -154,6 +154,12 @@ def _vertical_points(modes: Modes) -> Any:
     return _nodes(modes, "vertical_points")
 
 
+def _bob_slope(modes: Modes) -> Any:
+    if not (modes.system._kind == "cord" and modes.system._compiled.has_bob):
+        raise UnavailableError("revchain.Modes.bob_slope: is for a Cord with a bob: Cord(..., tip_centroid=)")
+    return modes._found().bob_slope
+
+
 def _signed_turn(speed: Any) -> Any:
     return TURN if speed.dtype == np.longdouble else float(TURN)
 
@@ -325,6 +331,11 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         "below has its centre of gravity on the axis, section 4 (13), (14) of the paper. For a cord held at both ends: one "
         "below each node, and one below the upper end.",
         _vertical_points,
+    )
+    bob_slope: Field[Floats] = Field(
+        "For a cord with a bob: the slope ``d offset / d arc_length`` along the bob, its inclination where the offset of the "
+        "cord's end is 1, shape (k,). An AttributeError for all others.",
+        lambda m: _bob_slope(m),
     )
     conical_height_low: Field[Floats | None] = Field(
         "Second double of each height with ``precision='double-double'``, to be added to `conical_height`; `error_bound` then "

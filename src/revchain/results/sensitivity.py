@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 DATA = ("mass", *_core.DATA[1:])
 OF_RIGS = ("momentum", "spin", "displaced_mass", "added_mass", "stiffness", "support_mass")
-OF_CORDS = ("length", "mass", "tip_mass", "exponent", "tension")
+OF_CORDS = ("length", "mass", "tip_mass", "exponent", "tension", "masses")
 
 
 class Sensitivity(Result):
@@ -52,6 +52,7 @@ class Sensitivity(Result):
     ``displaced_mass``              mass of fluid that a link displaces
     ``added_mass``                  added mass of a link; 0 in a fluid that turns
     ``stiffness`` ``support_mass``  stiffness of the support, mass that moves with it; 0 if it is firm
+    ``masses``                      point masses on a cord, shape (R, n), from the free end
     ``tip_mass`` ``exponent``       tip of a cord; exponent of its density at constant mass (NaN for a function)
     ``tension`` ``span``            tension at the upper end; distance of the ends. What was not given is NaN
     ``angular_speed``               speed of a steady shape
@@ -253,7 +254,7 @@ def sensitivity_of_modes(modes: Modes) -> Sensitivity:
         bounds = by_datum("conical_height", modes, dict(zip(DATA, errors, strict=True)))
     else:
         rates: Any = _core.cord_sensitivity(modes._found()) if len(modes) else [np.empty(0)] * len(OF_CORDS)
-        values = dict(zip(OF_CORDS, rates, strict=True))
+        values = {name: rate for name, rate in zip(OF_CORDS, rates, strict=True) if name in data}
         values["tension"] = values["tension"] / system._force(modes.gravity)
     ratio = {name: x * (data[name] / (heights[:, None] if x.ndim == 2 else heights)) for name, x in values.items()}
     relative = by_datum("ln(conical_height) by ln(datum)", modes, ratio)
@@ -364,7 +365,9 @@ def _data(system: Any, gravity: float) -> dict[str, Any]:
         cord = system.system if held else system
         exponent = cord.density if isinstance(cord.density, float) else np.nan
         weights = cord._compiled.weight, cord._compiled.tip_weight
-        return dict(zip(OF_CORDS, (cord.length, *weights, exponent, (held and system.tension) or 0.0), strict=True))
+        values = (cord.length, *weights, exponent, (held and system.tension) or 0.0)
+        own = {"masses": np.array(list(cord._particles.values()))} if cord._particles else {}
+        return dict(zip(OF_CORDS, values, strict=False)) | own
     chain = _links(system)
     found = {name: getattr(chain, name) for name in DATA[1:4]}
     found |= {"mass": chain.mass if chain.by_mass else chain.weight, "length_in_proportion": chain.length}

@@ -288,22 +288,31 @@ def _of_held(caller: str, held: Held, path: str, link: int | None, gravity: floa
 
 
 def _of_cord(caller: str, cord: Cord, path: str, link: int | None, gravity: float) -> Datum:
-    length, heavy, tip, kept, by_mass = cord._state()
+    data = cord._state()
     if path == "length":
-        return Datum(path, length, lambda x: _longer(cord, x / length), length)
+        return Datum(path, data.length, lambda x: _longer(cord, x / data.length), data.length)
     if path.startswith("tip"):
-        return Datum(path, tip, lambda x: Cord._from_state((length, heavy, x, kept, by_mass)), tip or heavy)
-    return Datum(path, heavy, lambda x: Cord._from_state((length, x, tip, kept, by_mass)), heavy)
+        return Datum(path, data.tip, lambda x: Cord._from_state(data._replace(tip=x)), data.tip or data.weight)
+    return Datum(path, data.weight, lambda x: Cord._from_state(data._replace(weight=x)), data.weight)
 
 
 def _longer(cord: Cord, factor: float) -> Cord:
-    length, weight, tip, kept, by_mass = cord._state()
+    data = cord._state()
+    kept = data.density
     if not isinstance(kept, float):
         pieces = kept[1].copy()
         pieces[:, :2] *= factor
         pieces[:, 3:] /= factor
-        kept = (factor * length, pieces)
-    return Cord._from_state((factor * length, weight, tip, kept, by_mass))
+        kept = (factor * data.length, pieces)
+    return Cord._from_state(
+        data._replace(
+            length=factor * data.length,
+            density=kept,
+            particles=tuple((factor * s, x) for s, x in data.particles),
+            tip_centroid=factor * data.tip_centroid,
+            tip_radius_of_gyration=factor * data.tip_radius_of_gyration,
+        )
+    )
 
 
 _READ: dict[str, Callable[[str, Any, str, int | None, float], Datum]] = {

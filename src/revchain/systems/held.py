@@ -111,9 +111,9 @@ class Held(System):
                 f"{caller}: the ends must be nearer to each other than the length {self.length:.6g}, got {apart:g}: bring "
                 "their radii or the span closer"
             )
-        if isinstance(system, Cord) and (system.density != 0.0 or system._compiled.tip_weight):
+        if isinstance(system, Cord) and (system.density != 0.0 or system._compiled.tip_weight or system._particles):
             raise ValueError(
-                f"{caller}: a held cord must be uniform and without a tip; for another cut it into links: cord.chain(100)"
+                f"{caller}: a held cord must be uniform, without tip and masses; for another cut it into links: cord.chain(100)"
             )
 
     @property

@@ -246,6 +246,29 @@ Vector<double> critical_heights(const ContinuousChain& chain, Index count) {
     return heights;
 }
 
+/// Returns the largest relative change of a critical height by that of the place of a particle or
+/// of the support: V y'^2 s over the integral of V y'^2. It is large where most of the turning is
+/// between two that are near each other.
+REVCHAIN_LAZY
+double condition_of_places(const ContinuousChain& chain, double height, Index mode) {
+    double turning = 0, largest = 0;
+    const auto visit = [&](const auto& series, double duration) {
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(series)>, PathSeries>) {
+            const auto squared = [&](double part) {
+                return std::pow(series.state(duration * part).pull, 2);
+            };
+            const double first = squared(0), last = squared(1);
+            turning += series.pace * duration * (first + 4 * squared(0.5) + last) / 6;
+            const PathState end = series.state(duration);
+            largest = std::max({largest, first / series.tension[0] * series.arc[0],
+                                last / PathSeries::at(series.tension, duration) * end.arc});
+        }
+    };
+    const Path path(kind_of(chain, height, 0), 1,
+                    {.crossings = static_cast<int>(mode), .with_change = false}, visit);
+    return largest / turning;
+}
+
 /// Returns the number of critical heights above `height`. Throws InvalidArgument for a length above
 /// 1e6 heights and for a density or tip weight that the series cannot follow.
 REVCHAIN_LAZY

@@ -64,12 +64,12 @@ PathState state_at(const PathKind& kind, const std::vector<Path::Step>& steps, d
         steps.begin() + 1, steps.end(), arc,
         [](double x, const Path::Step& step) { return x * (1 + 0x1p-48) < step.start.arc; });
     const Path::Step& step = *(after - 1);
-    arc = std::max(arc, step.start.arc);
     if (kind.is_bare() && &step == &steps.front())
         return TipSeries(step.start.offset, kind.bend).state(arc);
     if (arc < steps.front().start.arc) return Path::near_tip(kind, tip_offset, arc);
     const PathSeries series(kind, step.start);
-    return series.state(time_at(series, arc, 1.05 * step.duration));  // a moved step may end later
+    return series.state(time_at(series, std::max(arc, step.start.arc),
+                                1.05 * step.duration));  // a moved step may end later
 }
 
 /// Collects points, residual, error and condition of a path while it is followed to the support.
