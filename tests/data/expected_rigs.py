@@ -18,8 +18,9 @@ from __future__ import annotations
 import mpmath as mp
 from mpmath import mpf
 
-UNITS = {"N/m": mpf(1), "m": mpf(1), "cm": mpf("0.01"), "kg": mpf(1), "g": mpf("0.001"), "t": mpf(1000), "rpm": None}
-UNITS |= {"kN m/rad": mpf(1000), "kN m s/rad": mpf(1000)}
+# as texts, which are read with the digits of the moment
+UNITS = {"N/m": "1", "m": "1", "cm": "0.01", "mm": "0.001", "kg": "1", "g": "0.001", "t": "1000", "rpm": None}
+UNITS |= {"kN m/rad": "1000", "kN m s/rad": "1000"}
 
 
 def number(given):
@@ -27,7 +28,7 @@ def number(given):
     if not isinstance(given, str):
         return mpf(given)
     value, _, unit = given.partition(" ")
-    return mpf(value) * (mp.pi / 30 if unit == "rpm" else UNITS[unit])
+    return mpf(value) * (mp.pi / 30 if unit == "rpm" else mpf(UNITS[unit]))
 
 
 class Link:

@@ -8,7 +8,7 @@ not rounded to double. Chains of up to 200 links: the dense inertia matrix in th
 (not the offsets of the pins, which the program uses), reduced by its diagonal stiffness, all its
 eigenvalues by mpmath.eigsy with 80 digits. Longer chains: counting negative pivots of the assembled
 tridiagonal pencil with 60 digits, and bisection. Scenes with supports, standing links, flywheels, fluids,
-clamped links or weights at pins: expected_rigs.py; let go, or held at both ends: expected_motions.py. Cross-checks: Laguerre zeros for equal plummets,
+clamped links or weights at pins: expected_rigs.py; let go, or held at both ends: expected_motions.py; cords: expected_cords.py. Cross-checks: Laguerre zeros for equal plummets,
 the closed quadratic for two plummets, the count of the assembled pencil on both sides of each height.
 """
 
@@ -20,6 +20,7 @@ import tomllib
 from pathlib import Path
 
 import mpmath as mp
+import expected_cords
 from expected_motions import held, let_go
 from expected_rigs import expected_of, number
 from mpmath import mpf
@@ -163,6 +164,26 @@ def is_rigged(scene):
     return "support" in scene or any(beyond & set(t) for t in [scene.get("uniform_chain", {}), *scene.get("links", [])])
 
 
+def of_cord(scene, digits, count):
+    """Heights, speeds and nodes of a scene with a uniform cord."""
+    cord, gravity = scene["cord"], mp.mpf(scene.get("gravity", mp.mpf("9.80665")))
+    assert not cord.get("density")
+    masses = [(number(each["arc_length"]), number(each["mass"])) for each in cord.get("masses", ())]
+    bob = [number(cord.get(name, 0)) for name in ("tip_mass", "tip_centroid", "tip_radius_of_gyration")]
+    pieces = expected_cords.Pieces(number(cord["length"]), number(cord["mass"]), masses, *bob)
+    return {
+        "size": 0,
+        "modes": [
+            {
+                "conical_height": mp.nstr(height, digits),
+                "angular_speed": mp.nstr(mp.sqrt(gravity / height), digits),
+                "nodes": [mp.nstr(node, 20) for node in pieces.nodes(height)],
+            }
+            for height in pieces.heights(count)
+        ],
+    }
+
+
 def write(path, expected):
     target = path.with_name(f"{path.stem}.expected.json")
     target.write_text(json.dumps(expected, indent=1) + "\n", encoding="utf-8")
@@ -181,6 +202,10 @@ def make(path):
         by = "Lagrange's equations in the angles, dense companion matrix, 80 digits"
         found = expected_of(scene, 40, 10**9 if asked == "all" else asked)
         return write(path, {**head, "by": by, "digits": 40, **found})
+    if "cord" in scene:
+        asked = scene.get("ask", {}).get("modes", {}).get("count", DEFAULT_MODES)
+        by = "Bessel functions between the masses, 80 digits"
+        return write(path, {**head, "by": by, "digits": 40, **of_cord(scene, 40, asked)})
     links = links_of(scene)
     n = len(links)
     asked = scene.get("ask", {}).get("modes", {}).get("count", min(DEFAULT_MODES, n))

@@ -175,11 +175,15 @@ def system_of(scene: Tables, source: str) -> tuple[System | None, float]:
 def _whole(table: tables.Whole, numbers: Numbers) -> Chain | Cord | None:
     """The chain or cord of a table; None if a number is wrong, which is noted already."""
     given = numbers.read(table)
-    if numbers.problems or math.isnan(sum(given.values())):
+    particles: list[Given] = []
+    if isinstance(table, tables.Cord) and table.masses is not UNSET:
+        particles = [numbers.of(f"masses[{k}]").read(each) for k, each in enumerate(table.masses)]
+    if numbers.problems or math.isnan(sum(given.values()) + sum(sum(each.values()) for each in particles)):
         return None
     try:
         if isinstance(table, tables.Cord):
-            return Cord(**given, density=table.density)
+            many = {"masses" if numbers.by_mass else "weights": _by_place(particles, numbers.heavy)} if particles else {}
+            return Cord(**given, density=table.density, **many)
         tip = given.pop(f"tip_{numbers.heavy}", 0.0)
         if isinstance(table, tables.TaperedChain):
             chain = Chain.tapered(table.count, **given, exponent=table.exponent)
@@ -190,6 +194,13 @@ def _whole(table: tables.Whole, numbers: Numbers) -> Chain | Cord | None:
     except ValueError as error:
         numbers.problems.append(problem_of(error, numbers.table))
         return None
+
+
+def _by_place(particles: list[Given], heavy: str) -> dict[float, float]:
+    found: dict[float, float] = {}
+    for each in particles:
+        found[each["arc_length"]] = found.get(each["arc_length"], 0.0) + each[heavy]
+    return found
 
 
 def _chain_of_links(links: Links, numbers: Numbers) -> Chain | None:

@@ -152,8 +152,24 @@ class TaperedChain(Whole, frozen=True, kw_only=True):
     exponent: Annotated[float, Meta(gt=-1, le=1000, description="Exponent of the power; 0 gives equal rods.")]
 
 
+class PointMass(Table, frozen=True, kw_only=True):
+    """A point mass on a cord, such as a clasp."""
+
+    arc_length: Annotated[Positive, says("Its distance from the free end along the cord (m).")]
+    weight: Annotated[MaybeNotNegative, says("Weight (N); or give mass.")] = UNSET
+    mass: Annotated[MaybeNotNegative, says("Mass (kg); or give weight.")] = UNSET
+
+
 class Cord(Whole, frozen=True, kw_only=True):
     """A flexible cord: the limit of many short links."""
+
+    tip_centroid: Annotated[
+        MaybeNotNegative, says("For a bob that turns at its end: distance of the bob's centre of gravity below it (m).")
+    ] = UNSET
+    tip_radius_of_gyration: Annotated[
+        MaybeNotNegative, says("Radius of gyration of the bob about its centre of gravity (m).")
+    ] = UNSET
+    masses: Annotated[list[PointMass] | UnsetType, says("Point masses on the cord, beside its own mass.")] = UNSET
 
     density: Annotated[
         float,

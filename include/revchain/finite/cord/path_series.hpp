@@ -274,7 +274,7 @@ class PathSeries {
         double scale = 1 / kind.per_length;
         for (double& x : c) x *= scale, scale *= kind.unit;
         std::array<Coefficients, degree + 1> line{};  // line[i] = c_i + sigma line[i + 1]
-        pace = 1 / (c[0] * (1 + std::abs(offset[0])));
+        pace = 1 / (c[0] * (1 + kind.bend * std::abs(offset[0])));
         Coefficients slope{}, density_change{}, mass_change{}, drive{}, drive_change{};
         std::size_t last = degree;  // powers above `last` are negligible within the piece
         const double span = std::min(kind.density->end_of_piece(at) / kind.unit - arc[0], 1e300);
