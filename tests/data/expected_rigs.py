@@ -19,7 +19,7 @@ import mpmath as mp
 from mpmath import mpf
 
 UNITS = {"N/m": mpf(1), "m": mpf(1), "cm": mpf("0.01"), "kg": mpf(1), "g": mpf("0.001"), "t": mpf(1000), "rpm": None}
-UNITS |= {"kN m/rad": mpf(1000), "kN m s/rad": mpf(1000)}
+UNITS |= {"kN m/rad": mpf(1000), "kN m s/rad": mpf(1000), "N": mpf(1), "deg": None}
 
 
 def number(given):
@@ -27,7 +27,7 @@ def number(given):
     if not isinstance(given, str):
         return mpf(given)
     value, _, unit = given.partition(" ")
-    return mpf(value) * (mp.pi / 30 if unit == "rpm" else UNITS[unit])
+    return mpf(value) * ({"rpm": mp.pi / 30, "deg": mp.pi / 180}[unit] if UNITS[unit] is None else UNITS[unit])
 
 
 class Link:
