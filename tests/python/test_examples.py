@@ -171,13 +171,13 @@ def test_damped(path):
 def test_governors(path):
     """Equilibria at the speed asked for, and the speeds at the stops.
 
-    The inclination changes seven times as much as the speed, which is rounded: measured 4.8 ulp."""
+    The lift changes 14 times as much as the speed, in parts of itself, and the speed is rounded: measured 9.5 ulp."""
     expected, found = expected_of(path), LOADED[path].equilibria()
     assert len(found) == len(expected["equilibria"]) >= 1
     for one, row in zip(found, expected["equilibria"], strict=True):
         assert one.stable == row["stable"] and np.isnan(one.period) == ("period" not in row)
         for name in row.keys() - {"stable"}:
-            np.testing.assert_allclose(getattr(one, name), float(row[name]), rtol=8 * ULP)
+            np.testing.assert_allclose(getattr(one, name), float(row[name]), rtol=16 * ULP)
     governor = LOADED[path].system()
     at = governor.at([governor._given["lowest_inclination"], governor._given["highest_inclination"]])
     for name, column in (("falls", at.low_speed), ("angular_speed", at.angular_speed), ("rises", at.high_speed)):

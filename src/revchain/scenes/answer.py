@@ -169,7 +169,9 @@ def _campbell(table: Table, given: Given, system: Whirling | None, numbers: Numb
     if speeds is None:
         numbers.refuse("angular_speed", 'is missing: write {from = "1 rpm", to = "20 rpm", steps = 39}')
     elif np.size(speeds) < 2 or not (np.isnan(speeds).any() or (np.diff(speeds) > 0).all()):
-        numbers.refuse("angular_speed", f"must be two or more ascending speeds, got {written(getattr(table, 'angular_speed'))}")
+        asked = getattr(table, "angular_speed")
+        got = f"{speeds[0]:g} to {speeds[-1]:g}" if isinstance(asked, Spread) else written(asked)
+        numbers.refuse("angular_speed", f"must be two or more ascending speeds, got {got}")
     if given.get("orders") == []:
         numbers.refuse("orders", "is an empty list: write [1, 2], or leave it out")
 

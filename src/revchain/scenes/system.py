@@ -190,8 +190,12 @@ def _governor(scene: Tables, table: tables.Governor, numbers: Numbers) -> Sleeve
         return SleeveGovernor(**given, balls=table.balls, gravity=numbers.gravity)
     except ValueError as error:
         reason = without_function(error)
-        key = next((name for name in given if reason.startswith((name, name.replace("_", " ")))), "")
-        numbers.problems.append(Problem(0, 0, f"governor.{key}".rstrip("."), reason))
+        for name in given:
+            for words in (f"{name} ", f"{name} ".replace("_", " ")):
+                if reason.startswith(words):
+                    numbers.of("governor").refuse(name, reason.removeprefix(words))
+                    return None
+        numbers.refuse("governor", reason)
         return None
 
 

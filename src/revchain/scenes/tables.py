@@ -192,7 +192,7 @@ class Governor(Table, frozen=True):
     joint: Annotated[
         MaybeNotNegative, says("Distance from the pivot to the joint of the lower link (m); at the ball if left out.")
     ] = UNSET
-    sleeve_offset: Annotated[MaybeNotNegative, says("Distance of the lower links' pivots from the axis (m).")] = UNSET
+    sleeve_offset: Annotated[MaybeAnySign, says("Distance of the lower links' pivots from the axis (m).")] = UNSET
     sleeve_arm: Annotated[
         MaybeNotNegative, says("Hartnell: arm of the levers at the sleeve, at right angles to the ball's (m), instead of lower_arm.")
     ] = UNSET
@@ -200,7 +200,7 @@ class Governor(Table, frozen=True):
     spring_stiffness: Annotated[
         MaybeNotNegative, says("Stiffness of a spring that presses the sleeve down (N/m).")
     ] = UNSET
-    spring_force: Annotated[MaybeNotNegative, says("Force of that spring at inclination 0 (N).")] = UNSET
+    spring_force: Annotated[MaybeAnySign, says("Force of that spring at inclination 0 (N).")] = UNSET
     friction: Annotated[MaybeNotNegative, says("Force with which the sleeve resists, either way (N).")] = UNSET
     shaft_inertia: Annotated[
         MaybeNotNegative, says("Moment of inertia of a shaft that turns freely (kg m^2); if left out, its speed is held.")

@@ -130,7 +130,8 @@ def _converted(given: Any, quantity: str, text: str = "") -> Any:
     unit, kind, example = SI[quantity]
     if not given.is_compatible_with(unit or "dimensionless"):
         hint = "; give it as mass" if quantity.endswith("weight") and given.is_compatible_with("kg") else ""
-        hint = "; give it as weight" if quantity.endswith("mass") and given.is_compatible_with("N") else hint
+        by_weight = quantity.endswith("mass") and quantity.replace("mass", "weight") in SI
+        hint = "; give it as weight" if by_weight and given.is_compatible_with("N") else hint
         raise ValueError(f'must be {kind} such as "{example}", got "{text or given}"{hint}')
     number = given.m_as(unit or "dimensionless")
     if kind == "an angular speed" and "hertz" in str(given.units):
