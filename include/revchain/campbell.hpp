@@ -15,8 +15,8 @@
 ///     const revchain::Chain<double> chair({revchain::plummet(80.0, 4.0)});  // kg, m
 ///     const revchain::Rig carousel(chair, {.support = revchain::carried_round(3.0)});
 ///     const auto found = revchain::campbell(carousel, {.angular_speed = {0.5, 1.0, 1.5}});
-///     found.frequency(0, 0);              // 1.35909 rad/s: the lower frequency at 0.5 rad/s
-///     found.crossings[0].angular_speed;   // 0.806879 rad/s: it meets once per turn
+///     found.frequency(0, 0);              // 1.07012 rad/s: the lower frequency at 0.5 rad/s
+///     found.crossings[0].angular_speed;   // 0.806850 rad/s: it meets once per turn
 namespace revchain::inline REVCHAIN_BUILD {
 
 struct CampbellOptions {

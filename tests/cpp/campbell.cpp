@@ -173,6 +173,25 @@ TEST_CASE("two plummets on an arm in a driven plane: the second derivatives of t
     CHECK(crossings >= support::by_tier(15, 300));
 }
 
+TEST_CASE("a frequency that jumps at the limit speed of a mast meets no multiple there", "[finite][rig]") {
+    // Below sqrt(stiffness / moving mass) the link hangs outwards, above it inwards.
+    const Rig rig(Chain<double>({plummet(g, 1.0)}),
+                  {.support = {.stiffness = 200.0, .carriage_weight = 2 * g, .radius = 3.0}});
+    const double limit = std::sqrt(200.0 / 3);
+    const Campbell found = revchain::campbell(rig, {.angular_speed = {2, 3, 4, 5, 6, 7, 8, 8.1, 8.2, 8.3, 9, 10, 11, 12},
+                                                    .orders = {1, 2, 3},
+                                                    .frame = StabilityFrame::driven});
+    CHECK((found.frequency(7, 0) < 8.1 && found.frequency(8, 0) > 3 * 8.2));  // all three signs change
+    CHECK(found.crossings.size() == 6);
+    for (const auto& one : found.crossings) {
+        CHECK(std::abs(one.angular_speed - limit) > 1);
+        const double next = one.angular_speed * (1 + 1e-9);
+        const Campbell at = revchain::campbell(
+            rig, {.angular_speed = {one.angular_speed, next}, .frame = StabilityFrame::driven});
+        CHECK(std::abs(at.frequency(0, one.motion - 1) / one.angular_speed / static_cast<double>(one.order) - 1) <= 1e-12);
+    }
+}
+
 TEST_CASE("what campbell refuses", "[finite]") {
     const Chain<double> chain({plummet(1.0, 1.0)});
     const auto refused = [&](const CampbellOptions& options, const char* words) {

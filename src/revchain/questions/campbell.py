@@ -67,7 +67,7 @@ def campbell(
     -----
     Method: `steady_shapes` and `stability` at each speed. Where a frequency less a multiple of the speed changes its sign
     between two speeds, the zero is found by interpolation; a sign that changes in a jump is no crossing. Accuracy: that of
-    the exponents, 1e-13 of the largest; crossings 1e-12. Cost: 0.05 milliseconds for each speed with two links, 2 with
+    the exponents, 1e-13 of the largest; crossings 1e-12. Cost: 0.04 milliseconds for each speed with two links, 1 with
     twenty; ten times as much for each crossing. Source: W. Campbell, The Protection of Steam-Turbine Disk Wheels from Axial
     Vibration, Trans. ASME 46 (1924).
 
