@@ -24,7 +24,8 @@ void def_campbell(py::module_& module) {
             const revchain::CampbellOptions options{speeds, orders, half_waves, frame(driven), gravity};
             const auto found = [&] {
                 if constexpr (std::is_same_v<System, Rig>)
-                    return aside(system.chain(), nullptr, [=](const Chain&) { return revchain::campbell(system, options); });
+                    return aside(system.chain(), nullptr,
+                                 [=](const Chain&) { return revchain::campbell(system, options); });
                 else
                     return aside(system, nullptr, [=](const Chain& own) { return revchain::campbell(own, options); });
             }();

@@ -92,8 +92,9 @@ Campbell campbell_of(const System& system, const CampbellOptions& options) {
     for (const Index order : options.orders)
         for (std::size_t i = 0; i + 1 < speeds.size(); ++i)
             for (std::size_t j = 0; j < width; ++j) {
+                const auto multiple = static_cast<double>(order);
                 const auto off = [&](const SmallMotion& motion) {
-                    return j < motion.ratio.size() ? motion.ratio[j] - static_cast<double>(order) : nan;
+                    return j < motion.ratio.size() ? motion.ratio[j] - multiple : nan;
                 };
                 const double low = off(motions[i]), high = off(motions[i + 1]);
                 if (std::isnan(low + high) || (low < 0) == (high < 0)) continue;

@@ -67,9 +67,10 @@ class GovernorEffort(NamedTuple):
     power: float
 
 
-class GovernorEquilibria(
-    Result, Listed[GovernorPoints], row="point", title="{summary}", notes=("stable: a higher speed lifts the sleeve farther",)
-):
+_STABLE = "stable: a higher speed lifts the sleeve farther"
+
+
+class GovernorEquilibria(Result, Listed[GovernorPoints], row="point", title="{summary}", notes=(_STABLE,)):
     """All equilibria of a governor at one speed: a sequence of `GovernorPoints`; returned by `SleeveGovernor.equilibria`.
 
     Examples
@@ -86,16 +87,28 @@ class GovernorEquilibria(
     __slots__ = ()
     governor: Field[SleeveGovernor] = Field("The governor.")
     angular_speed: Field[float] = Field("Speed of the shaft, rad/s.", fact=True)
-    inclination: Field[Floats] = Field("Inclinations of the arms, rad, shape (E,).", heading="inclination", unit="rad", digits=5)
+    inclination: Field[Floats] = Field(
+        "Inclinations of the arms, rad, shape (E,).", heading="inclination", unit="rad", digits=5
+    )
     lift: Field[Floats] = Field("Lift of the sleeve from inclination 0, m, shape (E,).", heading="lift", unit="m", digits=5)
     ball_radius: Field[Floats] = Field(
         "Distance of the balls from the axis, m, shape (E,).", heading="balls off axis", unit="m", digits=5
     )
-    stable: Field[NDArray[np.bool_]] = Field("Whether a higher speed lifts the sleeve farther, shape (E,).", heading="stable")
-    period: Field[Floats] = Field("Period of small oscillations, s, shape (E,); NaN if they grow.", heading="period", unit="s", digits=5)
-    height: Field[Floats] = Field("Distance from the balls up to where their arms meet the axis, m, shape (E,).", axes=(), unit="m")
-    low_speed: Field[Floats] = Field("Friction holds the sleeve above this speed, rad/s, shape (E,).", axes=(), unit="rad/s")
-    high_speed: Field[Floats] = Field("Friction holds the sleeve below this speed, rad/s, shape (E,).", axes=(), unit="rad/s")
+    stable: Field[NDArray[np.bool_]] = Field(
+        "Whether a higher speed lifts the sleeve farther, shape (E,).", heading="stable"
+    )
+    period: Field[Floats] = Field(
+        "Period of small oscillations, s, shape (E,); NaN if they grow.", heading="period", unit="s", digits=5
+    )
+    height: Field[Floats] = Field(
+        "Distance from the balls up to where their arms meet the axis, m, shape (E,).", axes=(), unit="m"
+    )
+    low_speed: Field[Floats] = Field(
+        "Lowest speed at which friction holds the sleeve there, rad/s, shape (E,).", axes=(), unit="rad/s"
+    )
+    high_speed: Field[Floats] = Field(
+        "Highest speed at which friction holds the sleeve there, rad/s, shape (E,).", axes=(), unit="rad/s"
+    )
     summary: Field[str] = Field("What was found, in words.", lambda e: e._words())
 
     def _sheet(self, brief: bool = False) -> Sheet:

@@ -25,7 +25,8 @@ from ..systems.rig import Rig
 from ..systems.support_motion import KINDS, SupportMotion
 from .parse import choice, written
 from .system import Given, Numbers, System, Whirling
-from .tables import DEFAULT_MODES, Spread, Table, fields_of, number_fields
+from .tables import DEFAULT_MODES, AskCampbell, Spread, Table, fields_of, number_fields
+
 
 def _equilibria(governor: SleeveGovernor, angular_speed: float | None = None) -> Any:
     """The equilibria at a speed; without one the governor itself, whose table has those between its stops."""
@@ -163,14 +164,14 @@ def _swing(table: Table, given: Given, system: Whirling | None, numbers: Numbers
             numbers.refuse(name, f"{each}, free end first, got {len(given[name])}")
 
 
-def _campbell(table: Table, given: Given, system: Whirling | None, numbers: Numbers) -> None:
+def _campbell(table: AskCampbell, given: Given, system: Whirling | None, numbers: Numbers) -> None:
     """Check that there are ascending speeds."""
     speeds = given.get("angular_speed")
     if speeds is None:
         numbers.refuse("angular_speed", 'is missing: write {from = "1 rpm", to = "20 rpm", steps = 39}')
     elif np.size(speeds) < 2 or not (np.isnan(speeds).any() or (np.diff(speeds) > 0).all()):
-        asked = getattr(table, "angular_speed")
-        got = f"{speeds[0]:g} to {speeds[-1]:g}" if isinstance(asked, Spread) else written(asked)
+        given_as_range = isinstance(table.angular_speed, Spread)
+        got = f"{speeds[0]:g} to {speeds[-1]:g}" if given_as_range else written(table.angular_speed)
         numbers.refuse("angular_speed", f"must be two or more ascending speeds, got {got}")
     if given.get("orders") == []:
         numbers.refuse("orders", "is an empty list: write [1, 2], or leave it out")

@@ -239,7 +239,8 @@ class Scene(Tables, frozen=True, weakref=True):
         lambda: Campbell,
     )
     equilibria = _asking(
-        "equilibria", "equilibria of a governor at a speed, or without one the governor", "GovernorEquilibria or SleeveGovernor",
+        "equilibria", "equilibria of a governor at a speed, or without one the governor",
+        "GovernorEquilibria or SleeveGovernor",
         '>>> len(scene.equilibria(angular_speed="60 rpm"))\n2', lambda: GovernorEquilibria,
         '{"governor": {"ball_mass": 1.0, "arm": 0.5}}',
     )

@@ -180,7 +180,7 @@ class Held(Table, frozen=True):
 
 
 class Governor(Table, frozen=True):
-    """A centrifugal governor of Watt, Porter or Hartnell: balls on a turning shaft lift a sleeve (`revchain.SleeveGovernor`)."""
+    """A governor of Watt, Porter or Hartnell: balls on a turning shaft lift a sleeve (`revchain.SleeveGovernor`)."""
 
     ball_mass: Annotated[Positive, says("Mass of each ball (kg).")]
     arm: Annotated[Positive, says("Distance from the pivot of an arm to its ball (m).")]
@@ -194,7 +194,7 @@ class Governor(Table, frozen=True):
     ] = UNSET
     sleeve_offset: Annotated[MaybeAnySign, says("Distance of the lower links' pivots from the axis (m).")] = UNSET
     sleeve_arm: Annotated[
-        MaybeNotNegative, says("Hartnell: arm of the levers at the sleeve, at right angles to the ball's (m), instead of lower_arm.")
+        MaybeNotNegative, says("Hartnell: sleeve arm of the levers, at right angles to the ball's (m), instead of lower_arm.")
     ] = UNSET
     sleeve_mass: Annotated[MaybeNotNegative, says("Mass of the sleeve (kg).")] = UNSET
     spring_stiffness: Annotated[

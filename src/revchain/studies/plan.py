@@ -54,7 +54,8 @@ def _between_stops(name: str, found: Any) -> float:
 
 def _first_crossings(found: Any) -> list[float]:
     """The lowest speed at which a frequency meets each multiple of the speed; NaN if none does."""
-    return [min([one.angular_speed for one in found.crossings if one.order == order], default=math.nan) for order in found.orders]
+    met = {order: [one.angular_speed for one in found.crossings if one.order == order] for order in found.orders}
+    return [min(met[order], default=math.nan) for order in found.orders]
 
 
 def _signed(numbers: Any) -> Any:
