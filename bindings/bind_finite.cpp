@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings.hpp"
 #include "interrupt.hpp"
+#include "revchain/campbell.hpp"
 #include "revchain/stability.hpp"
 #include "revchain/steady_shapes.hpp"
 #include "shapes.hpp"
@@ -12,6 +13,29 @@ namespace {
 using Chain = revchain::Chain<double>;
 using revchain::Rig;
 using revchain::SteadyShape;
+
+/// `campbell(system, speeds, orders, half_waves, driven, gravity)`: frequencies, stable, and crossings as tuples.
+template <class System>
+void def_campbell(py::module_& module) {
+    module.def(
+        "campbell",
+        [](const System& system, const std::vector<double>& speeds, const std::vector<revchain::Index>& orders,
+           revchain::Index half_waves, bool driven, double gravity) {
+            const revchain::CampbellOptions options{speeds, orders, half_waves, frame(driven), gravity};
+            const auto found = [&] {
+                if constexpr (std::is_same_v<System, Rig>)
+                    return aside(system.chain(), nullptr,
+                                 [=](const Chain&) { return revchain::campbell(system, options); });
+                else
+                    return aside(system, nullptr, [=](const Chain& own) { return revchain::campbell(own, options); });
+            }();
+            py::list crossings;
+            for (const auto& one : found.crossings)
+                crossings.append(py::make_tuple(one.order, one.motion, one.angular_speed));
+            return py::make_tuple(to_numpy(found.frequency), found.stable, std::move(crossings));
+        },
+        "system"_a, "angular_speed"_a, "orders"_a, "half_waves"_a, "driven"_a, "gravity"_a);
+}
 
 }  // namespace
 
@@ -51,6 +75,7 @@ void bind_finite(py::module_& module) {
         const revchain::RigStabilityOptions options{.frame = in, .direction = rotation(direction), .gravity = gravity};
         return aside(rig.chain(), nullptr, [=](const Chain&) { return revchain::stability(rig, of, options); });
     });
+    def_campbell<Chain>(module), def_campbell<Rig>(module);
     def_steady_shapes<Chain>(module, [](const Chain& chain, const AtSpeed& at) {
         return revchain::steady_shapes(chain, {.conical_height = at.conical_height,
                                                .angular_speed = at.angular_speed,

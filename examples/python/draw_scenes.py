@@ -6,6 +6,8 @@ python draw_scenes.py writes scene_NAME.svg into the current folder.
 
 from pathlib import Path
 
+import matplotlib.pyplot as plt
+
 import revchain as rc
 from revchain.plots.programs import save
 
@@ -15,6 +17,7 @@ NAMES = [
     *("bell_on_soft_frame", "swing_carousel", "chair_o_plane"),
     *("bicycle_wheels", "two_gyrostats", "moored_floats", "gyroscopes_under_float", "stokes_float", "broomstick"),
     *("acrobat", "troposkien", "plucked_chain", "crane_brakes", "crane_brakes_shaped", "hanging_cable"),
+    "porter_governor",
 ]
 
 def drawn(scene, question, found):
@@ -28,7 +31,8 @@ for name in NAMES:
     scene = rc.load_scene(SCENES / f"{name}.toml")
     [question, found], *_ = scene.answers().items()
     axes = drawn(scene, question, found)
-    count, what = (len(found), question.removesuffix("s")) if question != "swing" else (found.time.size, "time")
+    count, what = (len(found), question) if question != "swing" else (found.time.size, "times")
     axes.set_title(scene.title)
-    print(f"{scene.title}: {count} {what}{'s' * (count != 1)},", end=" ")
+    print(f"{scene.title}: {count} {what if count != 1 else what[:-1]},", end=" ")
     save(axes.figure, f"scene_{name}")
+    plt.close(axes.figure)

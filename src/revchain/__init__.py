@@ -97,6 +97,7 @@ if _TYPE_CHECKING:
     from .closed_forms import two_links as two_links
     from .closed_forms.bell import BellAndClapper as BellAndClapper
     from .closed_forms.bell import bell_and_clapper as bell_and_clapper
+    from .closed_forms.governor import GovernorEquilibria as GovernorEquilibria
     from .closed_forms.governor import SleeveGovernor as SleeveGovernor
     from .closed_forms.motions import BufferImpact as BufferImpact
     from .closed_forms.motions import GovernorMotion as GovernorMotion
@@ -148,6 +149,7 @@ _LATER = dict.fromkeys(_CLOSED_FORMS, "closed_forms") | {
 }
 _RECEIVED = {  # classes of results that no program makes; `dir` leaves them out
     "Certificate": "results.modes",
+    "GovernorEquilibria": "closed_forms.governor",
     "OtherModes": "results.modes",
     "Place": "results.shapes",
     "StabilityWindow": "results.branches",

@@ -20,7 +20,7 @@ from mpmath import mpf
 
 # as texts, which are read with the digits of the moment
 UNITS = {"N/m": "1", "m": "1", "cm": "0.01", "mm": "0.001", "kg": "1", "g": "0.001", "t": "1000", "rpm": None}
-UNITS |= {"kN m/rad": "1000", "kN m s/rad": "1000"}
+UNITS |= {"kN m/rad": "1000", "kN m s/rad": "1000", "N": "1", "deg": None}
 
 
 def number(given):
@@ -28,7 +28,7 @@ def number(given):
     if not isinstance(given, str):
         return mpf(given)
     value, _, unit = given.partition(" ")
-    return mpf(value) * (mp.pi / 30 if unit == "rpm" else mpf(UNITS[unit]))
+    return mpf(value) * ({"rpm": mp.pi / 30, "deg": mp.pi / 180}[unit] if UNITS[unit] is None else mpf(UNITS[unit]))
 
 
 class Link:

@@ -8,7 +8,8 @@ not rounded to double. Chains of up to 200 links: the dense inertia matrix in th
 (not the offsets of the pins, which the program uses), reduced by its diagonal stiffness, all its
 eigenvalues by mpmath.eigsy with 80 digits. Longer chains: counting negative pivots of the assembled
 tridiagonal pencil with 60 digits, and bisection. Scenes with supports, standing links, flywheels, fluids,
-clamped links or weights at pins: expected_rigs.py; let go, or held at both ends: expected_motions.py; cords: expected_cords.py. Cross-checks: Laguerre zeros for equal plummets,
+clamped links or weights at pins: expected_rigs.py; let go, or held at both ends: expected_motions.py;
+cords: expected_cords.py; Campbell diagrams and governors: expected_campbell.py. Cross-checks: Laguerre zeros for equal plummets,
 the closed quadratic for two plummets, the count of the assembled pencil on both sides of each height.
 """
 
@@ -21,6 +22,7 @@ from pathlib import Path
 
 import mpmath as mp
 import expected_cords
+from expected_campbell import crossings, governor
 from expected_motions import held, let_go
 from expected_rigs import expected_of, number
 from mpmath import mpf
@@ -197,10 +199,15 @@ def make(path):
     if "held" in scene:
         by = "the potential made stationary in the angles, Newton's method, 80 digits"
         return write(path, {**head, "by": by, "digits": 30, "modes": [], "shapes": held(scene)})
+    if "governor" in scene:
+        by = "the energies of the linkage, differentiated numerically, 80 digits"
+        return write(path, {**head, "by": by, "digits": 40, "modes": [], **governor(scene)})
     if is_rigged(scene):
         asked = scene.get("ask", {}).get("modes", {}).get("count", DEFAULT_MODES)
         by = "Lagrange's equations in the angles, dense companion matrix, 80 digits"
         found = expected_of(scene, 40, 10**9 if asked == "all" else asked)
+        if "campbell" in scene.get("ask", {}):
+            found["crossings"] = crossings(scene)
         return write(path, {**head, "by": by, "digits": 40, **found})
     if "cord" in scene:
         asked = scene.get("ask", {}).get("modes", {}).get("count", DEFAULT_MODES)

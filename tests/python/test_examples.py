@@ -26,7 +26,8 @@ LOADED = {path: rc.load_scene(path) for path in SCENES}
 DAMPED = [path for path in SCENES if getattr(LOADED[path].system(), "is_damped", False)]
 RIGS = [path for path in SCENES if LOADED[path].is_rigged and path not in DAMPED]
 HELD = [path for path in SCENES if LOADED[path].is_held]
-CHAINS = [path for path in SCENES if path not in RIGS + HELD + DAMPED]
+GOVERNORS = [path for path in SCENES if isinstance(LOADED[path].system(), rc.SleeveGovernor)]
+CHAINS = [path for path in SCENES if path not in RIGS + HELD + DAMPED + GOVERNORS]
 ULP = 2.0**-52
 # The expected values belong to the decimals of the file and the answers to their roundings. Those cost up
 # to some ulp in principle and 0.9 ulp measured (bell_and_clapper), inside the bound of 2 ulp.
@@ -164,6 +165,32 @@ def test_damped(path):
     assert found.time.size >= 2
     for got, offset in zip(found.offset, expected["swing"].values(), strict=True):
         np.testing.assert_allclose(got, [float(y) for y in offset], rtol=4 * ULP)
+
+
+@pytest.mark.parametrize("path", GOVERNORS, ids=lambda path: path.stem)
+def test_governors(path):
+    """Equilibria at the speed asked for, and the speeds at the stops.
+
+    The lift changes 14 times as much as the speed, in parts of itself, and the speed is rounded: measured 9.5 ulp."""
+    expected, found = expected_of(path), LOADED[path].equilibria()
+    assert len(found) == len(expected["equilibria"]) >= 1
+    for one, row in zip(found, expected["equilibria"], strict=True):
+        assert one.stable == row["stable"] and np.isnan(one.period) == ("period" not in row)
+        for name in row.keys() - {"stable"}:
+            np.testing.assert_allclose(getattr(one, name), float(row[name]), rtol=16 * ULP)
+    governor = LOADED[path].system()
+    at = governor.at([governor._given["lowest_inclination"], governor._given["highest_inclination"]])
+    for name, column in (("falls", at.low_speed), ("angular_speed", at.angular_speed), ("rises", at.high_speed)):
+        np.testing.assert_allclose(column, [float(stop[name]) for stop in expected["stops"]], rtol=2 * ULP)
+
+
+def test_campbell_of_the_chair():
+    path = ROOT / "examples" / "scenes" / "chair_o_plane.toml"
+    found, expected = LOADED[path].campbell(), expected_of(path)["crossings"]
+    assert [(one.order, one.motion) for one in found.crossings] == [(row["order"], row["motion"]) for row in expected]
+    assert f"{found.crossings[0].rpm:.3f}" == "6.094"
+    for one, row in zip(found.crossings, expected, strict=True):
+        np.testing.assert_allclose(one.angular_speed, float(row["angular_speed"]), rtol=1e-14)
 
 
 def test_let_go():
@@ -323,7 +350,7 @@ def test_page_of_scenes():
     assert "5.95 m, inclined at 23 degrees" in page
     assert f"{out.offset[0]:.2f} m at {np.degrees(out.inclination[0]):.0f}" == "5.95 m at 23"
     chains = {"ball_on_chain", "clamped_bell", "jointed_rod", "rods_on_threads"}
-    assert {path.stem for path in RIGS + HELD} | chains | {"plucked_chain", "crane_brakes_shaped"} == set(shown)
+    assert {path.stem for path in RIGS + HELD + GOVERNORS} | chains | {"plucked_chain", "crane_brakes_shaped"} == set(shown)
 
 
 def test_experiments_are_whole():

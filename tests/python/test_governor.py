@@ -73,6 +73,27 @@ def test_the_stops_of_hartnells_governor(tmp_path):
     assert rc.SleeveGovernor(ball_mass=1.0, arm=1.0).plot().get_ylabel() == "balls off the axis (m)"
 
 
+def test_equilibria_at_a_speed(tmp_path):
+    """A sequence of points, with a table, a picture and files."""
+    governor = rc.SleeveGovernor(**WATT, joint="1.4 m")
+    found = governor.equilibria("5 rad/s")
+    assert len(found) == 2 and found[-1] == list(found)[1] and found[1].angular_speed == 5.0
+    assert found.inclination.tolist() == [one.inclination for one in found] and found.stable.tolist() == [False, True]
+    text = str(found)
+    assert "2 equilibria at 5.00000 rad/s (47.75 rpm), proved complete" in text and "53.130" in text
+    assert found.to_dict()["governor"]["sleeve_mass"] == 3.0 and found.to_dict()["points"][1]["lift"] == near(1.12, rel=4e-16)
+    assert pickle.loads(pickle.dumps(found)) == found and found != governor.equilibria(5.1)
+    for name in ("e.npz", "e.nc"):
+        found.save(tmp_path / name)
+        assert rc.load(tmp_path / name) == found
+    assert "1 equilibrium at" in str(governor.equilibria(3.0))
+    assert found.plot(speed="rad/s").get_xlabel() == "speed (rad/s)"
+    dots = [line for line in found.plot().lines if line.get_marker() == "o"]
+    places = [(dot.get_xdata()[0], dot.get_ydata()[0]) for dot in dots]
+    np.testing.assert_allclose(places, [(150 / math.pi, 0.0), (150 / math.pi, 1.12)], rtol=4e-16)
+    assert governor.describe() == "governor: 2 balls of 4 kg on arms of 1.4 m; lower links of 1.4 m; sleeve of 3 kg"
+
+
 def test_without_a_sleeve_it_is_a_conical_pendulum():
     speed = np.array([3.5, 5.0, 9.0])
     pendulum = rc.SleeveGovernor(ball_mass=3.0, arm=1.0, balls=1)

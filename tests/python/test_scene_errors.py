@@ -17,6 +17,7 @@ from revchain.scenes.error import Problem
 from revchain.scenes.scene import Scene
 
 LINK = "[[links]]\nmass = 1\nlength = 1\n"
+GOVERNOR = "[governor]\nball_mass = 2\narm = 0.3\n"
 
 # A file, and what is said of it: line and column, key, sentence. The first two dozen are those of engineers.
 FILES = {
@@ -59,7 +60,7 @@ FILES = {
     "rpm of a wheel": (LINK + "flywheel = {mass = 1, radius_of_gyration = 1, rpm = 60}\n", '4:1 links[0].flywheel.spin: is missing\n4:47 links[0].flywheel.rpm: unknown key; write spin = "60 rpm"'),
     "a range in words": (LINK + '[ask.response]\nangular_speed = "1 to 60 rpm"\n', '5:1 ask.response.angular_speed: a range is written {from = "1", to = "60 rpm"}, got "1 to 60 rpm"'),
     "tension in kilograms": (LINK + '[held]\ntension = "2 kg"\n', '5:1 held.tension: must be a force such as "20 N", got "2 kg"'),
-    "a key in quotes": ('"links[0].mass" = 3\n' + LINK, '1:1 "links[0].mass": unknown key; known keys: schema_version, title, description, gravity, order, links, uniform_chain, tapered_chain, cord, support, fluid, held, ask'),
+    "a key in quotes": ('"links[0].mass" = 3\n' + LINK, '1:1 "links[0].mass": unknown key; known keys: schema_version, title, description, gravity, order, links, uniform_chain, tapered_chain, cord, governor, support, fluid, held, ask'),
     "[[link]]": ("[[link]]\nmass = 1\nlength = 1\n", "1:1 link: unknown key; did you mean [[links]]?"),
     "[[support]]": (LINK + "[[support]]\nradius = 1\n", "4:1 support: is one table: write [support], with one pair of brackets"),
     "lenght": ("[[links]]\nmass = 1\nlenght = 1\n", "1:1 links[0].length: is missing\n3:1 links[0].lenght: unknown key; did you mean length?"),
@@ -79,8 +80,8 @@ FILES = {
     "quotes without a unit": ('[[links]]\nmass = "2"\nlength = 1\n', '2:1 links[0].mass: must be a number, or a number and its unit such as "2 kg", got "2"; write 2 without quotes'),
     "missing length": (LINK + "[[links]]\nmass = 1\n", "4:1 links[1].length: is missing"),
     "empty links": ("links = []\n", "1:1 links: is an empty list: give at least one link"),
-    "nothing hangs": ('title = "x"\n', "1:1 give one of [[links]], [uniform_chain], [tapered_chain] or [cord], got none of them"),
-    "two systems": (LINK + '[uniform_chain]\nkind = "rods"\ncount = 2\nlength = 1\nmass = 1\n', "1:1 give one of [[links]], [uniform_chain], [tapered_chain] or [cord], got links and uniform_chain"),
+    "nothing hangs": ('title = "x"\n', "1:1 give one of [[links]], [uniform_chain], [tapered_chain], [cord] or [governor], got none of them"),
+    "two systems": (LINK + '[uniform_chain]\nkind = "rods"\ncount = 2\nlength = 1\nmass = 1\n', "1:1 give one of [[links]], [uniform_chain], [tapered_chain], [cord] or [governor], got links and uniform_chain"),
     "no speed": (LINK + "[ask.branches]\n", "4:1 ask.branches: give max_angular_speed or min_conical_height: at which speed"),
     "a range without its end": (LINK + "[ask.response]\nangular_speed = {from = 1}\n", "5:1 ask.response.angular_speed.to: is missing"),
     "a study": ('scene = "a.toml"\n[vary."links[0].mass"]\nvalues = [1]\n', "2:1 vary: is of a study, not of a scene: revchain sweep a.toml"),
@@ -89,6 +90,26 @@ FILES = {
     "key twice": ("[[links]]\nmass = 1\nmass = 2\n", "3:9 is there twice"),
     "no value": ("[[links]]\nmass =\nlength = 1\n", "2:7 a value is missing here, or is none: write a number, or text in quotes"),
     "the end": ("mass = [1,", "1:11 a value is missing here, or is none: write a number, or text in quotes (the file ends)"),
+    "a governor on a support": (GOVERNOR + "[support]\nradius = 1\n", "4:1 support: does not go with [governor]: remove it"),
+    "modes of a governor": (GOVERNOR + "[ask.modes]\n", "4:1 ask.modes: does not go with [governor]: write [ask.equilibria]"),
+    "equilibria of a chain": (LINK + "[ask.equilibria]\n", "4:1 ask.equilibria: does not go with a chain or cord: write [ask.modes] or [ask.shapes]"),
+    "a governor without arms": ("[governor]\nball_mass = 2\n", "1:1 governor.arm: is missing"),
+    "balls by weight": ('[governor]\nball_mass = "2 N"\narm = 0.3\n', '2:1 governor.ball_mass: must be a mass such as "2 kg", got "2 N"'),
+    "a mass of a governor": (GOVERNOR + "mass = 3\n", "4:1 governor.mass: unknown key; did you mean ball_mass?"),
+    "half a ball": (GOVERNOR + "balls = 2.5\n", "4:1 governor.balls: must be a whole number, got 2.5"),
+    "one stop": (GOVERNOR + "lowest_inclination = 0.1\n", "1:1 governor: give both lowest_inclination and highest_inclination, or neither"),
+    "stops the wrong way round": (GOVERNOR + "lowest_inclination = 0.3\nhighest_inclination = 0.1\n", "4:1 governor.lowest_inclination: must be below highest_inclination, got 0.3 and 0.1"),
+    "a sleeve on nothing": (GOVERNOR + "sleeve_mass = 1\n", "4:1 governor.sleeve_mass: needs a sleeve: give lower_arm or sleeve_arm, got 1"),
+    "lower arms too short": (GOVERNOR + "lower_arm = 0.1\npivot_offset = 0.3\n", "4:1 governor.lower_arm: must be long enough to reach the sleeve at inclination 0, got 0.1"),
+    "a governor that turns backwards": (GOVERNOR + "[ask.equilibria]\nangular_speed = -3\n", "5:1 ask.equilibria.angular_speed: must not be negative, got -3"),
+    "a governor and links": (GOVERNOR + LINK, "1:1 give one of [[links]], [uniform_chain], [tapered_chain], [cord] or [governor], got links and governor"),
+    "campbell without speeds": (LINK + "[ask.campbell]\n", '4:1 ask.campbell.angular_speed: is missing: write {from = "1 rpm", to = "20 rpm", steps = 39}'),
+    "campbell from rest": (LINK + '[ask.campbell]\nangular_speed = {to = "9 rpm"}\n', "5:1 ask.campbell.angular_speed.from: must be positive, got 0.0"),
+    "campbell at one speed": (LINK + "[ask.campbell]\nangular_speed = 3\n", "5:1 ask.campbell.angular_speed: must be two or more ascending speeds, got 3.0"),
+    "campbell downwards": (LINK + "[ask.campbell]\nangular_speed = {from = 2, to = 1}\n", "5:1 ask.campbell.angular_speed: must be two or more ascending speeds, got 2 to 1"),
+    "order 0": (LINK + "[ask.campbell]\nangular_speed = [2, 3]\norders = [0]\n", "6:11 ask.campbell.orders[0]: must be at least 1, got 0"),
+    "no orders": (LINK + "[ask.campbell]\nangular_speed = [2, 3]\norders = []\n", "6:1 ask.campbell.orders: is an empty list: write [1, 2], or leave it out"),
+    "another frame": (LINK + '[ask.campbell]\nangular_speed = [2, 3]\nframe = "fixed"\n', '6:1 ask.campbell.frame: must be one of free, driven, got "fixed"'),
     "inside a JSON file": ('{"links": [{"mass": 1,\n  "length": -1, "flywheel": {"mas": 2}}],\n "ask": {"modes": {"angular_speed": ["1 rpm", "3 kg"]}}}', '2:3 links[0].length: must be positive, got -1\n2:17 links[0].flywheel.radius_of_gyration: is missing\n2:17 links[0].flywheel.spin: is missing\n2:30 links[0].flywheel.mas: unknown key; did you mean mass?\n3:47 ask.modes.angular_speed[1]: must be an angular speed such as "30 rpm", got "3 kg"'),
     "JSON": ('{"title": "x",\n "links": [}', "2:12 Expecting value"),
     "no JSON": ("{", "1:2 Expecting property name enclosed in double quotes"),

@@ -232,7 +232,9 @@ def test_count_and_first_take_the_place_of_the_scenes(run, tmp_path):
 def test_the_new_scene_with_everything_said(run, tmp_path):
     """Every commented line of the new scene is a line that can stand there."""
     assert run("new", tmp_path / "new.toml")[0] == 0
-    text, mark, held = (tmp_path / "new.toml").read_text().partition("# ---- a chain held at both ends")
+    everything, mark, governor = (tmp_path / "new.toml").read_text().partition("# ---- a centrifugal governor")
+    assert mark
+    text, mark, held = everything.partition("# ---- a chain held at both ends")
     plain, ask_mark, ask = text.partition("# ---- other questions")
     assert mark and ask_mark
 
@@ -241,10 +243,12 @@ def test_the_new_scene_with_everything_said(run, tmp_path):
 
     (tmp_path / "all.toml").write_text(plain + uncommented(ask))
     read = rc.load_scene(tmp_path / "all.toml")
-    assert read.asks == ("modes", "shapes", "response", "swing", "branches")
+    assert read.asks == ("modes", "shapes", "response", "swing", "branches", "campbell")
     assert len(read.response().angular_speed) == 200 and len(read.swing().time) == 201
     assert run("shapes", tmp_path / "all.toml", "--quiet")[0] == 0
     for left_out in ("span", "tension"):
         lines = [line for line in uncommented(held).splitlines() if not line.startswith((left_out, "weightless"))]
         (tmp_path / "held.toml").write_text(plain + "\n".join(lines))
         assert rc.load_scene(tmp_path / "held.toml").is_held
+    (tmp_path / "governor.toml").write_text(uncommented(governor))
+    assert len(rc.load_scene(tmp_path / "governor.toml").equilibria()) == 2

@@ -3,7 +3,7 @@
 
 import numpy as np
 import pytest
-from studies import GYROSTAT, UNIFORM, normal, uniform, words
+from studies import CAROUSEL, GOVERNOR, GYROSTAT, STOPS, UNIFORM, normal, uniform, words
 
 import revchain as rc
 
@@ -39,6 +39,11 @@ SINGLE = {
     "response": ({"links": [ROD, ROD], "ask": {"response": {"conical_height": [1.0]}}}, {"ask.response.conical_height[0]": uniform(-0.1, 1)}),
     "held at a tension": ({"links": [{"mass": 1.0, "length": 0.5, "repeat": 3}], "held": {"tension": "50 N"}}, {"held.tension": words("40 N", 60.0)}),
     "held at a span": ({"links": [{"mass": 1.0, "length": 0.5, "repeat": 3}], "held": {"span": 1.2}, "ask": {"shapes": {"angular_speed": 20.0}}}, {"held.span": words(1.2, "1.3 m")}),
+    "governor": ({"governor": {**GOVERNOR, **STOPS}}, {"governor.sleeve_mass": uniform(-1, 12), "governor.spring_stiffness": uniform(0, 2000), "gravity": uniform(9, 10)}),
+    "balls of a governor": ({"governor": {**GOVERNOR, **STOPS}}, {"governor.balls": words(1, 2, 3)}),
+    "governor at a speed": ({"governor": GOVERNOR, "ask": {"equilibria": {"angular_speed": "125 rpm"}}}, {"ask.equilibria.angular_speed": uniform(-1, 20)}),
+    "campbell": ({**CAROUSEL, "ask": {"campbell": {"angular_speed": {"from": 0.3, "to": 1.5, "steps": 7}, "orders": [2, 1]}}}, {"links[0].length": uniform(-1, 8), "support.radius": uniform(0.1, 5)}),
+    "campbell and response": ({**CAROUSEL, "ask": {"campbell": {"angular_speed": [1.0, 1.2, 1.4]}, "response": {"angular_speed": [0.5, 0.6]}}}, {"links[0].mass": uniform(1, 100)}),
     "everything": (GYROSTAT, {"links[1].flywheel.spin": words("-300 rpm", 50.0), "links[0].length": uniform(-0.1, 1), "ask.response.angular_speed.to": uniform(5, 12)}),
 }  # fmt: skip
 
@@ -166,7 +171,31 @@ def of_response(scene):
     }, bool(np.isfinite(moved.error_bound).all())
 
 
-ANSWERS = {"modes": of_modes, "shapes": of_shapes, "response": of_response}
+def of_campbell(scene):
+    found = rc.campbell(scene.system(), scene.campbell().angular_speed, orders=scene.campbell().orders, gravity=scene.gravity_value())
+    first = [min([np.inf, *(c.angular_speed for c in found.crossings if c.order == k)]) for k in found.orders]
+    return {
+        "first_crossing": [np.nan if n == np.inf else n for n in first],
+        "lowest_frequency": found.frequency[:, 0],
+        "stable": found.stable,
+    }, True
+
+
+def of_equilibria(scene):
+    governor, found = scene.system(), {}
+    if "lowest_inclination" in scene.to_dict()["governor"]:
+        low, high = governor.at(governor._given["lowest_inclination"]), governor.at(governor._given["highest_inclination"])
+        found = {"lowest_speed": low.angular_speed, "highest_speed": high.angular_speed, "sleeve_lift": high.lift - low.lift}
+        found |= {"sensitiveness": governor.sensitiveness, "insensitiveness": governor.insensitiveness}
+    if "equilibria" in scene.asks:
+        there = governor.equilibria(scene.ask.equilibria.angular_speed)
+        found["equilibria"] = len(there)
+        for name in ("inclination", "lift", "ball_radius", "period", "stable"):
+            found[f"equilibrium_{name}"] = [getattr(one, name) for one in there]
+    return found, True
+
+
+ANSWERS = {"modes": of_modes, "shapes": of_shapes, "response": of_response, "campbell": of_campbell, "equilibria": of_equilibria}
 
 
 def check(study):

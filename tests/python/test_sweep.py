@@ -20,7 +20,7 @@ from pathlib import Path
 import filelock
 import numpy as np
 import pytest
-from studies import GYROSTAT, UNIFORM, normal, uniform, words
+from studies import GOVERNOR, GYROSTAT, UNIFORM, normal, uniform, words
 
 import revchain as rc
 from revchain.cli import app as _cli
@@ -685,6 +685,11 @@ BAD = {
     "name with a slash": (varied("gravity", values=[1], name="m/s"), 'vary.gravity.name: must be a printable name'),
     "find nothing": ({"scene": ONE, "vary": GOOD, "find": []}, "find: "),
     "find what is not there": ({"scene": ONE, "vary": GOOD, "find": ["all"]}, "find[0]: must be one of modes, shapes, response"),
+    "a diagram without speeds": ({"scene": ONE, "vary": GOOD, "find": ["campbell"]}, "find[0]: the scene does not say at which speed: [ask.campbell]"),
+    "modes of a governor": ({"scene": {"governor": GOVERNOR}, "vary": {"governor.arm": {"values": [0.3]}}, "find": ["modes"]}, 'find[0]: has no answer for this system: write "equilibria"'),
+    "equilibria of a chain": ({"scene": ONE, "vary": GOOD, "find": ["equilibria"]}, 'find[0]: has no answer for this system: write "modes"'),
+    "a governor without a number": ({"scene": {"governor": GOVERNOR}, "vary": {"governor.arm": {"values": [0.3]}}}, "scene.governor: gives no number to store: write its two stops, or a speed in [ask.equilibria]"),
+    "a diagram of a cord": ({"scene": {"cord": {"length": 1, "mass": 1}, "ask": {"campbell": {"angular_speed": [5, 6]}}}, "vary": {"cord.length": {"values": [1]}}}, "scene.ask.campbell: does not go with cord"),
     "shapes at no speed": ({"scene": ONE, "vary": GOOD, "find": ["shapes"]}, "find[0]: the scene does not say at which speed"),
     "window": ({"scene": {**ONE, "ask": {"modes": {"conical_height": [0, 1]}}}, "vary": GOOD}, "scene.ask.modes.conical_height: gives each point another number of modes"),
     "swing": ({"scene": {**ONE, "ask": {"swing": {"offset": [0.1]}}}, "vary": GOOD}, "scene.ask.swing: is not for studies"),

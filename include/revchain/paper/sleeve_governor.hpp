@@ -99,22 +99,23 @@ inline SleeveGovernor::SleeveGovernor(const GovernorData& data) : data_(data) {
                          d.spring_stiffness, "friction", d.friction);
     require_finite(place, "pivot offset", d.pivot_offset, "sleeve offset", d.sleeve_offset,
                    "spring force", d.spring_force);
-    if (d.balls < 1) throw_invalid(place, "there must be at least one ball, got", d.balls);
+    if (d.balls < 1) throw_invalid(place, "balls must be at least 1", d.balls);
     if (!(d.shaft_inertia >= 0))
         throw_invalid(place, "shaft inertia must not be negative", d.shaft_inertia);
     const bool has_sleeve = d.lower_arm > 0 || d.sleeve_arm > 0;
     if (d.lower_arm > 0 && d.sleeve_arm > 0)
-        throw_invalid(place, "give lower_arm or sleeve_arm, not both; sleeve arm", d.sleeve_arm);
+        throw_invalid(place, "sleeve arm must be 0: give lower_arm or sleeve_arm, not both",
+                      d.sleeve_arm);
     for (const auto& [name, value] :
          {std::pair("sleeve mass", d.sleeve_mass), std::pair("friction", d.friction),
           std::pair("spring stiffness", d.spring_stiffness),
           std::pair("spring force", d.spring_force)})
         if (!has_sleeve && value != 0)
             throw_invalid(place,
-                          std::string(name) + " needs a sleeve: give lower_arm or sleeve_arm; got",
+                          std::string(name) + " needs a sleeve: give lower_arm or sleeve_arm",
                           value);
     if (!Motion::reaches(d, 0))
-        throw_invalid(place, "the lower arms must reach the sleeve at inclination 0; they have",
+        throw_invalid(place, "lower arm must be long enough to reach the sleeve at inclination 0",
                       d.lower_arm);
 }
 

@@ -20,6 +20,9 @@ from .progress import counted
 from .report import Report
 
 
+MOVING = [question for question in QUESTIONS if question not in ("campbell", "equilibria")]
+
+
 @app.command(epilog=epilog("animate"))
 @guarded
 def animate(
@@ -30,7 +33,7 @@ def animate(
     question: Annotated[
         str | None,
         typer.Option(
-            "--ask", metavar="|".join(QUESTIONS), help="Question to show; the first one of the scene if left out."
+            "--ask", metavar="|".join(MOVING), help="Question to show; the first one of the scene if left out."
         ),
     ] = None,
     figures: Annotated[
@@ -65,9 +68,9 @@ def animate(
         raise Stop(f"--frames-per-second: a {ending} file has no frames; leave it out", ExitCode.WRONG_USAGE)
     which = None if figures is None else _numbers(figures)
     read = read_scene(scene, gravity, "deg")
-    shown = question or next(iter(each for each in read.asks if each in QUESTIONS), "modes")
-    if shown not in QUESTIONS:
-        raise Stop(f"--ask: must be one of {', '.join(QUESTIONS)}, got {shown}", ExitCode.WRONG_USAGE)
+    shown = question or next(iter(each for each in read.asks if each in MOVING), "modes")
+    if shown not in MOVING:
+        raise Stop(f"--ask: must be one of {', '.join(MOVING)}, got {shown}", ExitCode.WRONG_USAGE)
     with written_aside(out) as [aside], ExitStack() as stack:
         found = answer_of(scene, read, shown, {}, quiet)
         try:

@@ -59,9 +59,9 @@ def validate(
     for path in scenes:
         try:
             read = load_scene(path)
-            system, asks = read.system(), ", ".join(read.asks) or "nothing, so its modes"
+            system, asks = read.system(), ", ".join(read.asks) or f"nothing, so its {read._questions[0]}"
             print(f"{path}: valid: {system.describe()}; asks {asks}")
-            sentences = [ask.without_answer(question, system, path) for question in read.asks or ("modes",)]
+            sentences = [ask.without_answer(question, system, path) for question in read._questions]
             print("".join(f"{path}: {sentence}\n" for sentence in sentences if sentence), end="")
         except SceneError as error:
             bad += 1

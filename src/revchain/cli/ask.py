@@ -14,6 +14,7 @@ import typer
 from msgspec import Meta, structs
 from rich.console import Console
 
+from ..closed_forms.governor import SleeveGovernor
 from ..results.files import written_aside
 from ..scenes.tables import QUESTIONS, AskExplain, Pair, Spread, Table, fields_of
 from ..scenes.system import Numbers, System
@@ -56,7 +57,7 @@ def run(
     units: Units = "deg",
     quiet: Quiet = False,
 ) -> None:
-    """Answer all questions of a scene; find its modes if it has none."""
+    """Answer all questions of a scene; find its modes (of a governor its equilibria) if it has none."""
     checked, folder = read_scene(scene, gravity, units), Path("out", scene.stem) if out is None else out
     kinds = [".txt", ".json", ".csv", ".png"]
     try:
@@ -68,7 +69,7 @@ def run(
         raise Stop(f"{scene}: the scene itself would be overwritten", ExitCode.WRONG_USAGE)
     folder.mkdir(parents=True, exist_ok=True)
     failed: list[Stop] = []
-    for nth, question in enumerate(checked.asks or ("modes",)):
+    for nth, question in enumerate(checked._questions):
         outputs = [(folder / f"{question}{kind}", kind) for kind in kinds]
         try:
             report = _answer(scene, checked, question, {}, outputs, units, quiet)
@@ -239,21 +240,28 @@ _NO_ANSWER = {  # by question, and what hangs
     "response": {"cord": _CUT, "bent": _SHAPES, "held": _MODES},
     "swing": {"cord": _CUT, "bent": _SHAPES, "held": _MODES},
     "branches": {"cord": _CUT, "bent": _SHAPES, "held": _SHAPES},
+    "campbell": {"cord": _CUT, "bent": _SHAPES, "held": _MODES},
+    "equilibria": {"chain": _MODES, "rig": _MODES, "cord": _MODES, "bent": _SHAPES, "held": _MODES},
 }
 _NAMES = {
     "rig": "a chain with a support, standing links, flywheels or a fluid",
     "bent": "a chain or cord whose ends are held a span apart",
     "held": "a chain or cord held at both ends",
     "cord": "a cord",
+    "chain": "a chain",
+    "governor": "a governor",
 }
+_GOVERNOR = "ask for its equilibria: revchain equilibria {path}"
 
 
 def without_answer(question: str, system: System, path: Path) -> str:
     """The reason why a question has no answer for a system, and the question to ask instead; empty if it has one."""
-    kind = system._kind.partition(" ")[0]
-    if system._is_held and getattr(system, "span", None) is not None:
-        kind = "bent"
-    instead = _NO_ANSWER[question].get(kind, "").format(path=path)
+    if isinstance(system, SleeveGovernor):
+        kind, instead = "governor", "" if question == "equilibria" else _GOVERNOR
+    else:
+        kind = "bent" if system._is_held and getattr(system, "span", None) is not None else system._kind.partition(" ")[0]
+        instead = _NO_ANSWER[question].get(kind, "")
+    instead = instead.format(path=path)
     return f"{question}: no answer for {_NAMES[kind]}; {instead}" if instead else ""
 
 
@@ -263,6 +271,8 @@ _SUMMARIES = {
     "response": "Find the forced motion of each pin when the support moves in a small circle or to and fro.",
     "swing": "Find the small oscillations in a plane after release, or while the support is moved.",
     "branches": "Find the bifurcation diagram: all branches of steady shapes up to a speed.",
+    "campbell": "Find the frequencies of small motion about a steady shape against the speed (Campbell diagram).",
+    "equilibria": "Find the equilibria of a governor: at one speed, or those between its stops.",
 }
 for _question, _table in QUESTIONS.items():
     _command(_question, _table, _SUMMARIES[_question])

@@ -42,6 +42,11 @@ USE: dict[str, tuple[str, str]] = {
         'revchain branches examples/scenes/chair_o_plane.toml --max-angular-speed "20 rpm" --plot branches.png',
         _ON_REQUEST,
     ),
+    "campbell": (
+        'revchain campbell examples/scenes/chair_o_plane.toml --angular-speed "1 rpm to 15 rpm in 29" --plot campbell.svg',
+        _ON_REQUEST,
+    ),
+    "equilibria": ('revchain equilibria examples/scenes/porter_governor.toml --angular-speed "125 rpm"', _ON_REQUEST),
     "explain": ("revchain explain examples/scenes/watch_chain.toml --rtol 1e-3", "only those given by --json and --csv"),
     "animate": ("revchain animate examples/scenes/two_weights.toml --out weights.html", "the file given by --out"),
     "sweep": (

@@ -47,9 +47,9 @@ class Report:
     def tables(self) -> list[tuple[Text | None, Table | None]]:
         """The printed tables: the heading and the grid of each, None where it has none."""
         sheets: list[Sheet] = [self.sheet]
-        for name in ("certificate", "other"):
+        for name in ("certificate", "other", "governor"):
             part = getattr(self.found, name, None)
-            if part is not None and (name == "certificate" or len(part)):
+            if part is not None and (name != "other" or len(part)):
                 sheets.append(part._sheet())
         if isinstance(self.found, Response) and self.found.angular_speed.size == 1:
             sheets.append(_pins(self.found))

@@ -7,21 +7,32 @@ Angles are in radians. Units are SI: masses in kg, forces in N.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
-from ..results.base import Field
+from ..results.base import Field, Listed, Result
 from ..results.sheet import Column, Sheet
-from ..systems.numbers import STANDARD_GRAVITY, floats, numbers, one_positive, real
+from ..systems.numbers import STANDARD_GRAVITY, Floats, floats, numbers, one_positive, real
 from .motions import Solved
 from .table import FloatOrArray, described
 
-__all__ = ["GovernorEffort", "GovernorPoints", "SleeveGovernor"]
+__all__ = ["GovernorEffort", "GovernorEquilibria", "GovernorPoints", "SleeveGovernor"]
 _STOPS = ("lowest_inclination", "highest_inclination")
 _ROWS = 9  # of the table
+_IN_WORDS = {
+    "pivot_offset": "pivots {:g} m off the axis",
+    "lower_arm": "lower links of {:g} m",
+    "sleeve_arm": "sleeve arms of {:g} m",
+    "sleeve_mass": "sleeve of {:g} kg",
+    "spring_stiffness": "spring of {:g} N/m",
+    "spring_force": "spring force {:g} N",
+    "friction": "friction {:g} N",
+    "shaft_inertia": "free shaft of {:g} kg m^2",
+}
 
 
 class GovernorPoints(NamedTuple):
@@ -54,6 +65,65 @@ class GovernorEffort(NamedTuple):
     effort: float
     lift: float
     power: float
+
+
+_STABLE = "stable: a higher speed lifts the sleeve farther"
+
+
+class GovernorEquilibria(Result, Listed[GovernorPoints], row="point", title="{summary}", notes=(_STABLE,)):
+    """All equilibria of a governor at one speed: a sequence of `GovernorPoints`; returned by `SleeveGovernor.equilibria`.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> rc.SleeveGovernor(ball_mass=4.0, arm=1.4, lower_arm=1.4, sleeve_mass=3.0, gravity=12.0).equilibria(5.0)
+    2 equilibria at 5.00000 rad/s (47.75 rpm), proved complete
+    inclination (°)  lift (m)  balls off axis (m)  stable  period (s)
+             0.0000    0.0000              0.0000      no         nan
+             53.130    1.1200              1.1200     yes      2.1991
+    stable: a higher speed lifts the sleeve farther
+    """
+
+    __slots__ = ()
+    governor: Field[SleeveGovernor] = Field("The governor.")
+    angular_speed: Field[float] = Field("Speed of the shaft, rad/s.", fact=True)
+    inclination: Field[Floats] = Field(
+        "Inclinations of the arms, rad, shape (E,).", heading="inclination", unit="rad", digits=5
+    )
+    lift: Field[Floats] = Field("Lift of the sleeve from inclination 0, m, shape (E,).", heading="lift", unit="m", digits=5)
+    ball_radius: Field[Floats] = Field(
+        "Distance of the balls from the axis, m, shape (E,).", heading="balls off axis", unit="m", digits=5
+    )
+    stable: Field[NDArray[np.bool_]] = Field(
+        "Whether a higher speed lifts the sleeve farther, shape (E,).", heading="stable"
+    )
+    period: Field[Floats] = Field(
+        "Period of small oscillations, s, shape (E,); NaN if they grow.", heading="period", unit="s", digits=5
+    )
+    height: Field[Floats] = Field(
+        "Distance from the balls up to where their arms meet the axis, m, shape (E,).", axes=(), unit="m"
+    )
+    low_speed: Field[Floats] = Field(
+        "Lowest speed at which friction holds the sleeve there, rad/s, shape (E,).", axes=(), unit="rad/s"
+    )
+    high_speed: Field[Floats] = Field(
+        "Highest speed at which friction holds the sleeve there, rad/s, shape (E,).", axes=(), unit="rad/s"
+    )
+    summary: Field[str] = Field("What was found, in words.", lambda e: e._words())
+
+    def _sheet(self, brief: bool = False) -> Sheet:
+        sheet = super()._sheet(brief)
+        return sheet if brief else replace(sheet, facts={**sheet.facts, "governor": self.governor._facts()})
+
+    @property
+    def _items(self) -> tuple[GovernorPoints, ...]:
+        columns = [np.broadcast_to(getattr(self, name), self.inclination.shape).tolist() for name in GovernorPoints._fields]
+        return tuple([GovernorPoints(*row) for row in zip(*columns, strict=True)])
+
+    def _words(self) -> str:
+        count, speed = self.inclination.size, self.angular_speed
+        what = f"{count} equilibri{'um' if count == 1 else 'a'}"
+        return f"{what} at {speed:#.6g} rad/s ({speed * 30 / math.pi:.2f} rpm), proved complete"
 
 
 def _speed(name: str) -> Any:
@@ -161,24 +231,47 @@ class SleeveGovernor(Solved, row="point"):
         return points._replace(stable=np.asarray(points.stable) > 0 if given.ndim else bool(points.stable))
 
     @described()
-    def equilibria(self, angular_speed: float) -> list[GovernorPoints]:
+    def equilibria(self, angular_speed: float) -> GovernorEquilibria:
         """Return all equilibria at a speed, by inclination, with the balls on their own side of the axis.
 
         Intervals prove that there are no others. Where they cannot, a ValueError says so.
 
         angular_speed: Speed of the shaft in rad/s, or a text such as "300 rpm"; not negative
-        returns: The points. Their `angular_speed` is the given one.
+        returns: A sequence of `GovernorPoints`, whose `angular_speed` is the given one, with a table and a picture.
 
         >>> pendulum = rc.SleeveGovernor(ball_mass=1.0, arm=1.0, gravity=9.81)
         >>> [(round(float(at.inclination), 4), at.stable) for at in pendulum.equilibria(4.0)]
         [(0.0, False), (0.9108, True)]
         """
         caller = "revchain.SleeveGovernor.equilibria"
-        found, complete = self._found().equilibria(real(caller, "angular_speed", angular_speed))
+        speed = real(caller, "angular_speed", angular_speed)
+        found, complete = self._found().equilibria(speed)
         if not complete:
             raise ValueError(f"{caller}: two equilibria are too close to be told apart at angular_speed {angular_speed}")
-        made: list[Any] = [[*row[:7], bool(row[7]), row[8]] for row in found.tolist()]
-        return [GovernorPoints(*point) for point in made]
+        columns = dict(zip(GovernorPoints._fields, found.reshape(-1, len(GovernorPoints._fields)).T, strict=True))
+        given = {"angular_speed": speed, "stable": columns["stable"] > 0}
+        return GovernorEquilibria._made(governor=self, **columns | given)
+
+    def describe(self) -> str:
+        """Return a description of the governor in words.
+
+        Returns
+        -------
+        str
+            The description, in kilograms, metres and newtons.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rc.SleeveGovernor(ball_mass=4.0, arm=1.4, lower_arm=1.4, sleeve_mass=3.0).describe()
+        'governor: 2 balls of 4 kg on arms of 1.4 m; lower links of 1.4 m; sleeve of 3 kg'
+        """
+        given = self._given
+        said = [f"governor: {given['balls']:g} ball{'s' * (given['balls'] > 1)} of {given['ball_mass']:g} kg on arms of {given['arm']:g} m"]
+        for name, words in _IN_WORDS.items():
+            if given[name] and given[name] < math.inf:
+                said.append(words.format(given[name]))
+        return "; ".join(said)
 
     @described()
     def effort(self, inclination: float, change: float = 0.01) -> GovernorEffort:

@@ -20,6 +20,7 @@ DRAWN_BY = {
     "TortuousRope": "closed_forms.plot_tortuous_rope",
     "GovernorMotion": "closed_forms.plot_governor",
     "SleeveGovernor": "closed_forms.plot_sleeve_governor",
+    "GovernorEquilibria": "closed_forms.plot_governor_equilibria",
     "GyrostaticString": "closed_forms.plot_waves",
     "GyrostaticString.vibration": "closed_forms.plot_vibration",
     "BellAndClapper": "closed_forms.plot_bell",

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from ..closed_forms.bell import BellAndClapper
-    from ..closed_forms.governor import SleeveGovernor
+    from ..closed_forms.governor import GovernorEquilibria, SleeveGovernor
     from ..closed_forms.motions import GovernorMotion, SkippingRope, TortuousRope
     from ..closed_forms.strings import FunicularPolygon, GyrostaticString
     from ..results.diagrams import ForceDiagram
@@ -258,6 +258,24 @@ def plot_sleeve_governor(governor: SleeveGovernor, ax: Axes | None = None, *, sp
         ax.plot(unit.of(np.where(np.asarray(at.stable) == stable, turning, np.nan)), lift, style, color=BLUE, linewidth=1.6)
     what = "lift of the sleeve (m)" if np.ptp(at.lift) else "balls off the axis (m)"
     ax.set(xlabel=unit.label, ylabel=what)
+    return ax
+
+
+@described(bound=True)
+def plot_governor_equilibria(found: GovernorEquilibria, ax: Axes | None = None, *, speed: str = "rpm") -> Axes:
+    """Draw the curve of the governor with a dot at each equilibrium on it, hollow if it is unstable.
+
+    >>> porter = rc.SleeveGovernor(ball_mass=2.3, arm=0.33, lower_arm=0.33, sleeve_mass=9.5122, gravity=9.81)
+    >>> len(porter.equilibria("125 rpm").plot().lines) > len(porter.plot().lines)
+    True
+    """
+    unit = SpeedUnit("revchain.GovernorEquilibria.plot", speed)
+    ax = plot_sleeve_governor(found.governor, ax, speed=speed)
+    given, at = found.governor._given, unit.of(found.angular_speed)
+    ax.axvline(at, color="0.6", linewidth=0.9, zorder=0)
+    places = found.lift if given["sleeve_arm"] or given["lower_arm"] else found.ball_radius
+    for place, stable in zip(places, found.stable, strict=True):
+        ax.plot(at, place, "o", color=BLUE, fillstyle="full" if stable else "none", markersize=6)
     return ax
 
 

@@ -131,10 +131,11 @@ def _histograms(values: Floats, result: DataArray, ax: Axes) -> Axes:
 
 def _curve_labels(result: DataArray) -> list[str]:
     """The labels of the curves of a result, such as ``mode 1``."""
-    along = next((key for key in ("mode", "shape", "speed") if key in result.dims), None)
+    along = next((key for key in result.dims if key in result.coords and "path" not in result[key].attrs), None)
     if along is None:
         return [str(result.name)]
-    return [f"{along} {label}" for label in result[along].to_numpy()[:MAX_CURVES]]
+    words = str(along).replace("_", " ")
+    return [f"{words} {label}" for label in result[along].to_numpy()[:MAX_CURVES]]
 
 
 def _label(array: DataArray) -> str:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..systems.numbers import Floats
 from .base import Field, Result
+from .sheet import Sheet
 
 
 class Crossing(NamedTuple):
@@ -74,6 +76,11 @@ class Campbell(Result, row="speed", title="{summary}", notes=("{_remarks}",), sp
         "not seen.",
     )
     summary: Field[str] = Field("What was found, in words.", lambda c: c._words())
+
+    def _sheet(self, brief: bool = False) -> Sheet:
+        sheet = super()._sheet(brief)
+        crossings = [{**one._asdict(), "rpm": one.rpm} for one in self.crossings]
+        return sheet if brief else replace(sheet, facts={**sheet.facts, "crossings": crossings})
 
     def _words(self) -> str:
         ends = self.angular_speed[[0, -1]] * (30 / np.pi)

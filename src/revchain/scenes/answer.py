@@ -11,7 +11,9 @@ import numpy as np
 from msgspec import UNSET
 
 from .. import _core
+from ..closed_forms.governor import SleeveGovernor
 from ..questions.branches import branches
+from ..questions.campbell import campbell
 from ..questions.explain import explain
 from ..questions.modes import find_modes
 from ..questions.response import response
@@ -22,8 +24,14 @@ from ..systems.held import Held
 from ..systems.rig import Rig
 from ..systems.support_motion import KINDS, SupportMotion
 from .parse import choice, written
-from .system import Given, Numbers, System
-from .tables import DEFAULT_MODES, Spread, Table, fields_of, number_fields
+from .system import Given, Numbers, System, Whirling
+from .tables import DEFAULT_MODES, AskCampbell, Spread, Table, fields_of, number_fields
+
+
+def _equilibria(governor: SleeveGovernor, angular_speed: float | None = None) -> Any:
+    """The equilibria at a speed; without one the governor itself, whose table has those between its stops."""
+    return governor if angular_speed is None else governor.equilibria(angular_speed)
+
 
 METHODS = tuple(dict.fromkeys((*_core.METHODS[1:], *_core.MODELS)))
 FUNCTIONS: dict[str, Callable[..., Any]] = {
@@ -32,6 +40,8 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     "response": response,
     "swing": swing,
     "branches": branches,
+    "campbell": campbell,
+    "equilibria": _equilibria,
     "explain": explain,
 }
 WINDOWS = ("angular_speed", "conical_height")
@@ -58,6 +68,12 @@ def arguments(question: str, table: Table, system: System | None, numbers: Numbe
     If the system was refused (None), only the keys that do not depend on it are checked.
     """
     numbers = numbers.of(f"ask.{question}")
+    if system is not None and isinstance(system, SleeveGovernor) != (question == "equilibria"):
+        instead = "write [ask.equilibria]" if question != "equilibria" else "write [ask.modes] or [ask.shapes]"
+        numbers.refuse("", f"does not go with {'[governor]' if question != 'equilibria' else 'a chain or cord'}: {instead}")
+        return {}
+    if isinstance(system, SleeveGovernor):
+        system = None  # its one question depends on none of its data
     signs = {name: sign for name, sign, _ in number_fields(type(table))}
     if question == "response" and system is not None and system.has_momentum:
         signs["angular_speed"] = "any"
@@ -80,7 +96,7 @@ def arguments(question: str, table: Table, system: System | None, numbers: Numbe
     return given
 
 
-def _modes(table: Table, given: Given, system: System | None, numbers: Numbers) -> None:
+def _modes(table: Table, given: Given, system: Whirling | None, numbers: Numbers) -> None:
     """Check the choice of modes, the method and the precision."""
     windows = [name for name in WINDOWS if name in given]
     others = [name for name in ("count", "first", *windows[1:]) if name in given]
@@ -104,7 +120,7 @@ def _modes(table: Table, given: Given, system: System | None, numbers: Numbers) 
         numbers.refuse("precision", f'method = "{method}" goes with "double" only')
 
 
-def _explain(table: Table, given: Given, system: System | None, numbers: Numbers) -> None:
+def _explain(table: Table, given: Given, system: Whirling | None, numbers: Numbers) -> None:
     """Check the choice of modes, and count all of them."""
     _modes(table, given, system, numbers)
     if given.get("count") == "all":
@@ -112,7 +128,7 @@ def _explain(table: Table, given: Given, system: System | None, numbers: Numbers
         given["count"] = max(there - given.get("first", 1) + 1, 1)
 
 
-def _response(table: Table, given: Given, system: System | None, numbers: Numbers) -> None:
+def _response(table: Table, given: Given, system: Whirling | None, numbers: Numbers) -> None:
     """Refuse a speed of 0, and more than one drive."""
     drives = [name for name in ("support_radius", "acceleration", "force") if name in given]
     if len(drives) > 1:
@@ -122,7 +138,7 @@ def _response(table: Table, given: Given, system: System | None, numbers: Number
             numbers.refuse(name, "must not be 0")
 
 
-def _swing(table: Table, given: Given, system: System | None, numbers: Numbers) -> None:
+def _swing(table: Table, given: Given, system: Whirling | None, numbers: Numbers) -> None:
     """Check that something moves and that there is a number for each pin that does; make the motion of the support."""
     kinds = {f"support_{kind}": kind for kind in KINDS}
     moved = {kinds[name]: given.pop(name) for name in kinds if name in given}
@@ -148,17 +164,31 @@ def _swing(table: Table, given: Given, system: System | None, numbers: Numbers) 
             numbers.refuse(name, f"{each}, free end first, got {len(given[name])}")
 
 
-_CHECKS: dict[str, Callable[[Any, Given, System | None, Numbers], None]] = {
+def _campbell(table: AskCampbell, given: Given, system: Whirling | None, numbers: Numbers) -> None:
+    """Check that there are ascending speeds."""
+    speeds = given.get("angular_speed")
+    if speeds is None:
+        numbers.refuse("angular_speed", 'is missing: write {from = "1 rpm", to = "20 rpm", steps = 39}')
+    elif np.size(speeds) < 2 or not (np.isnan(speeds).any() or (np.diff(speeds) > 0).all()):
+        given_as_range = isinstance(table.angular_speed, Spread)
+        got = f"{speeds[0]:g} to {speeds[-1]:g}" if given_as_range else written(table.angular_speed)
+        numbers.refuse("angular_speed", f"must be two or more ascending speeds, got {got}")
+    if given.get("orders") == []:
+        numbers.refuse("orders", "is an empty list: write [1, 2], or leave it out")
+
+
+_CHECKS: dict[str, Callable[[Any, Given, Whirling | None, Numbers], None]] = {
     "modes": _modes,
     "explain": _explain,
     "response": _response,
     "swing": _swing,
+    "campbell": _campbell,
 }
 
 
 def answered(question: str, system: System, given: Given, gravity: float, progress: _core.Progress | None) -> Any:
     """The result of the function of the question; the progress is that of modes."""
-    more: Given = {} if question == "explain" else {"gravity": gravity}
+    more: Given = {} if question in ("explain", "equilibria") else {"gravity": gravity}
     if question == "modes":
         more["progress"] = progress
     return FUNCTIONS[question](system, **given, **more)

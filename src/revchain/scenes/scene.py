@@ -19,7 +19,9 @@ from .system import Numbers, System, problem_of, system_of
 from .tables import BESIDE, QUESTIONS, SYSTEMS, TABLES, AskExplain, AskModes, Table, Tables
 
 if TYPE_CHECKING:
+    from ..closed_forms.governor import GovernorEquilibria, SleeveGovernor
     from ..results.branches import Branches
+    from ..results.campbell import Campbell
     from ..results.modes import Modes
     from ..results.motions import Response, Swing
     from ..results.shapes import SteadyShapes
@@ -36,8 +38,11 @@ MOVES = ("support_velocity", "support_acceleration", "support_offset", "support_
 _MADE: dict[int, tuple["weakref.ref[Scene]", dict[str, Any]]] = {}
 
 
+_LINKS = '{"links": [{"mass": 0.1, "length": 0.5}, {"mass": 0.3, "length": 0.5}]}'
+
+
 def _asking(
-    question: str, what: str, result: str, example: str, kind: Callable[[], type[Answer]]
+    question: str, what: str, result: str, example: str, kind: Callable[[], type[Answer]], of: str = _LINKS
 ) -> Callable[..., Answer]:
     """The method of `Scene` that answers one question; `kind` is never called and tells type checkers what it returns."""
 
@@ -66,7 +71,7 @@ def _asking(
         Examples
         --------
         >>> import revchain as rc
-        >>> scene = rc.Scene.from_dict({{"links": [{{"mass": 0.1, "length": 0.5}}, {{"mass": 0.3, "length": 0.5}}]}})
+        >>> scene = rc.Scene.from_dict({of})
         {indented}
         """
     return ask
@@ -78,9 +83,9 @@ class Scene(Tables, frozen=True, weakref=True):
     Notes
     -----
     The attributes are the tables of the file (`revchain schema` describes each key). Plain numbers are in SI units; text
-    such as ``"39.1396 inch"`` is converted by pint. The methods `modes`, `steady_shapes`, `response`, `swing` and
-    `branches` call the function of that name with the system, the gravity and the arguments of the scene. Arguments
-    given to a method replace those of the scene.
+    such as ``"39.1396 inch"`` is converted by pint. The methods `modes`, `steady_shapes`, `response`, `swing`, `branches`
+    and `campbell` call the function of that name with the system, the gravity and the arguments of the scene;
+    `equilibria` calls the method of a `SleeveGovernor`. Arguments given to a method replace those of the scene.
 
     Examples
     --------
@@ -182,7 +187,7 @@ class Scene(Tables, frozen=True, weakref=True):
 
         Returns
         -------
-        Chain, Rig, Cord or Held
+        Chain, Rig, Cord, Held or SleeveGovernor
             The system. It is a rig if the scene has a support, flywheels, a fluid or inverted links.
 
         Raises
@@ -203,8 +208,13 @@ class Scene(Tables, frozen=True, weakref=True):
 
     @property
     def asks(self) -> tuple[str, ...]:
-        """Names of the questions for which the scene has a table, out of modes, shapes, response, swing, branches."""
+        """Names of the questions for which the scene has a table, such as modes, shapes, response, swing, branches."""
         return tuple([name for name in QUESTIONS if getattr(self.ask, name) is not UNSET])
+
+    @property
+    def _questions(self) -> tuple[str, ...]:
+        """The questions to answer: those asked, or else the modes, of a governor its equilibria."""
+        return self.asks or (("modes",) if self.governor is UNSET else ("equilibria",))
 
     modes = _asking(
         "modes", "modes", "Modes", ">>> scene.modes(first=2).conical_height.round(6)\narray([0.25])", lambda: Modes
@@ -224,6 +234,16 @@ class Scene(Tables, frozen=True, weakref=True):
     branches = _asking(
         "branches", "branches", "Branches", ">>> len(scene.branches(max_angular_speed=5.0))\n1", lambda: Branches
     )
+    campbell = _asking(
+        "campbell", "Campbell diagram", "Campbell", ">>> scene.campbell(angular_speed=[5.0, 6.0]).frequency.shape\n(2, 3)",
+        lambda: Campbell,
+    )
+    equilibria = _asking(
+        "equilibria", "equilibria of a governor at a speed, or without one the governor",
+        "GovernorEquilibria or SleeveGovernor",
+        '>>> len(scene.equilibria(angular_speed="60 rpm"))\n2', lambda: GovernorEquilibria,
+        '{"governor": {"ball_mass": 1.0, "arm": 0.5}}',
+    )
 
     def answers(self) -> dict[str, Any]:
         """Return the answers to all questions of the scene.
@@ -231,7 +251,7 @@ class Scene(Tables, frozen=True, weakref=True):
         Returns
         -------
         dict
-            The result of each question of `asks`; the modes if the scene has no question.
+            The result of each question of `asks`; if there is none, the modes, or the equilibria of a governor.
 
         Raises
         ------
@@ -246,7 +266,7 @@ class Scene(Tables, frozen=True, weakref=True):
         >>> list(rc.Scene.from_dict({"links": [link], "ask": ask}).answers())
         ['shapes', 'response']
         """
-        return {question: self._answer(question, {}) for question in self.asks or ("modes",)}
+        return {question: self._answer(question, {}) for question in self._questions}
 
     def _answer(self, question: str, changed: dict[str, Any], progress: _core.Progress | None = None) -> Any:
         """The answer to one question; `changed` are keys of its table with other values than those of the scene."""

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from msgspec import UNSET, UnsetType, json
 
+from ..closed_forms.governor import SleeveGovernor
 from ..systems.chain import Chain
 from ..systems.cord import Cord
 from ..systems.held import Held
@@ -22,7 +23,8 @@ from .error import Problem, SceneError
 from .parse import without_consequences, written
 from .tables import MOST_LINKS, SYSTEMS, Link, Links, Spread, Table, Tables, number_fields
 
-System = Chain | Rig | Cord | Held
+Whirling = Chain | Rig | Cord | Held
+System = Whirling | SleeveGovernor
 Given = dict[str, Any]
 
 
@@ -151,15 +153,19 @@ def system_of(scene: Tables, source: str) -> tuple[System | None, float]:
     """
     given = [name for name in SYSTEMS if getattr(scene, name) is not UNSET]
     if len(given) != 1:
-        choice = "[[links]], [uniform_chain], [tapered_chain] or [cord]"
+        choice = "[[links]], [uniform_chain], [tapered_chain], [cord] or [governor]"
         raise SceneError(source, "", f"give one of {choice}, got {' and '.join(given) or 'none of them'}")
     numbers = Numbers(source, by_mass=is_by_mass(scene))
     numbers.gravity = numbers.value("gravity", scene.gravity, "gravity", "positive")
     if scene.links == []:
         raise SceneError(source, "links", "is an empty list: give at least one link")
+    if not isinstance(scene.governor, UnsetType):
+        governor = _governor(scene, scene.governor, numbers)
+        numbers.done()
+        return governor, numbers.gravity
     links = scene._links()
     made = _chain_of_links(links, numbers) if links else _whole(getattr(scene, given[0]), numbers.of(given[0]))
-    system: System | None = made
+    system: Whirling | None = made
     if scene.is_rigged and (scene.held is not UNSET or scene.cord is not UNSET):
         name = "cord" if scene.held is UNSET else "held"
         numbers.refuse(name, "does not go with a support, standing links, flywheels or a fluid")
@@ -170,6 +176,27 @@ def system_of(scene: Tables, source: str) -> tuple[System | None, float]:
         system = _held(scene.held, made, numbers.of("held"))
     numbers.done()
     return system, numbers.gravity
+
+
+def _governor(scene: Tables, table: tables.Governor, numbers: Numbers) -> SleeveGovernor | None:
+    """The governor of a scene; None if a number is wrong, which is noted already."""
+    for name in ("support", "fluid", "held", "order"):
+        if getattr(scene, name) not in (UNSET, "still", "free end first"):
+            numbers.refuse(name, "does not go with [governor]: remove it")
+    given = numbers.of("governor").read(table)
+    if numbers.problems:
+        return None
+    try:
+        return SleeveGovernor(**given, balls=table.balls, gravity=numbers.gravity)
+    except ValueError as error:
+        reason = without_function(error)
+        for name in given:
+            for words in (f"{name} ", f"{name} ".replace("_", " ")):
+                if reason.startswith(words):
+                    numbers.of("governor").refuse(name, reason.removeprefix(words))
+                    return None
+        numbers.refuse("governor", reason)
+        return None
 
 
 def _whole(table: tables.Whole, numbers: Numbers) -> Chain | Cord | None:

@@ -18,7 +18,7 @@ def says(text: str) -> Meta:
 
 MOST_LINKS = 10_000_000
 BESIDE = ("schema_version", "title", "description", "gravity", "order", "support", "fluid", "held", "ask")
-SYSTEMS = ("links", "uniform_chain", "tapered_chain", "cord")  # a scene has exactly one of these tables
+SYSTEMS = ("links", "uniform_chain", "tapered_chain", "cord", "governor")  # a scene has exactly one of these tables
 
 WithUnit = Annotated[str, Meta(pattern=PATTERN, description='A number and its unit, such as "39.1396 inch".')]
 NotNegativeNumber = Annotated[float, Meta(ge=0)]
@@ -195,6 +195,36 @@ class Held(Table, frozen=True):
     upper: Annotated[End | UnsetType, says("Support of the upper end; a firm point on the axis if left out.")] = UNSET
 
 
+class Governor(Table, frozen=True):
+    """A governor of Watt, Porter or Hartnell: balls on a turning shaft lift a sleeve (`revchain.SleeveGovernor`)."""
+
+    ball_mass: Annotated[Positive, says("Mass of each ball (kg).")]
+    arm: Annotated[Positive, says("Distance from the pivot of an arm to its ball (m).")]
+    balls: Annotated[int, Meta(ge=1, le=1000, description="Number of balls.")] = 2
+    pivot_offset: Annotated[
+        MaybeAnySign, says("Distance of the pivots from the axis (m); negative if the arms cross; 0 if left out.")
+    ] = UNSET
+    lower_arm: Annotated[MaybeNotNegative, says("Length of the links that carry the sleeve (m).")] = UNSET
+    joint: Annotated[
+        MaybeNotNegative, says("Distance from the pivot to the joint of the lower link (m); at the ball if left out.")
+    ] = UNSET
+    sleeve_offset: Annotated[MaybeAnySign, says("Distance of the lower links' pivots from the axis (m).")] = UNSET
+    sleeve_arm: Annotated[
+        MaybeNotNegative, says("Hartnell: sleeve arm of the levers, at right angles to the ball's (m), instead of lower_arm.")
+    ] = UNSET
+    sleeve_mass: Annotated[MaybeNotNegative, says("Mass of the sleeve (kg).")] = UNSET
+    spring_stiffness: Annotated[
+        MaybeNotNegative, says("Stiffness of a spring that presses the sleeve down (N/m).")
+    ] = UNSET
+    spring_force: Annotated[MaybeAnySign, says("Force of that spring at inclination 0 (N).")] = UNSET
+    friction: Annotated[MaybeNotNegative, says("Force with which the sleeve resists, either way (N).")] = UNSET
+    shaft_inertia: Annotated[
+        MaybeNotNegative, says("Moment of inertia of a shaft that turns freely (kg m^2); if left out, its speed is held.")
+    ] = UNSET
+    lowest_inclination: Annotated[MaybeAnySign, says("Inclination of the arms at the lower stop (rad).")] = UNSET
+    highest_inclination: Annotated[MaybeAnySign, says("Inclination of the arms at the upper stop (rad).")] = UNSET
+
+
 DEFAULT_MODES = 10
 
 Pair = tuple[NotNegative, NotNegative]
@@ -296,6 +326,30 @@ class AskBranches(Table, frozen=True):
     direction: Annotated[Literal[1, -1], says("Direction of rotation; only flywheels depend on it.")] = 1
 
 
+class AskCampbell(Table, frozen=True):
+    """Frequencies of small motion about a steady shape against the speed (`revchain.campbell`)."""
+
+    angular_speed: Annotated[
+        OneOrMore | UnsetType, says("Ascending speeds (rad/s): {from, to, steps, log}, or a list of speeds.")
+    ] = UNSET
+    orders: Annotated[
+        list[Annotated[int, Meta(ge=1)]] | UnsetType,
+        says("Multiples of the speed whose crossings are listed; 1 and 2 if left out."),
+    ] = UNSET
+    half_waves: Annotated[Count, says("Number of half waves of the shape.")] = 1
+    frame: Annotated[
+        Literal["free", "driven"], says("free: in and out of the plane, with ball joints; driven: in a plane that turns.")
+    ] = "free"
+
+
+class AskEquilibria(Table, frozen=True):
+    """Equilibria of a governor: at one speed, or those between its stops (`revchain.SleeveGovernor.equilibria`)."""
+
+    angular_speed: Annotated[
+        MaybeNotNegative, says("Speed of the shaft (rad/s); if left out, the speed at each inclination between the stops.")
+    ] = UNSET
+
+
 class AskExplain(Table, frozen=True):
     """The method that finds the modes for a tolerance, and the cost of the others (`revchain.explain`)."""
 
@@ -312,6 +366,8 @@ class Ask(Table, frozen=True):
     response: Annotated[AskResponse | UnsetType, says("Forced motion by a moving support.")] = UNSET
     swing: Annotated[AskSwing | UnsetType, says("Motion after release, or under a moving support.")] = UNSET
     branches: Annotated[AskBranches | UnsetType, says("All branches of steady shapes.")] = UNSET
+    campbell: Annotated[AskCampbell | UnsetType, says("Frequencies of small motion against the speed.")] = UNSET
+    equilibria: Annotated[AskEquilibria | UnsetType, says("Equilibria of a governor.")] = UNSET
 
 
 QUESTIONS: dict[str, type[Table]] = {
@@ -320,6 +376,8 @@ QUESTIONS: dict[str, type[Table]] = {
     "response": AskResponse,
     "swing": AskSwing,
     "branches": AskBranches,
+    "campbell": AskCampbell,
+    "equilibria": AskEquilibria,
 }
 TABLES: dict[str, type[Table]] = {**QUESTIONS, "explain": AskExplain}
 
@@ -353,6 +411,7 @@ class Tables(Table, frozen=True):
         TaperedChain | UnsetType, says("Links cut from a tapering cord, instead of links.")
     ] = UNSET
     cord: Annotated[Cord | UnsetType, says("A flexible cord, instead of links.")] = UNSET
+    governor: Annotated[Governor | UnsetType, says("A centrifugal governor, instead of links.")] = UNSET
     support: Annotated[Support | UnsetType, says("Support of the chain; a firm point on the axis if left out.")] = UNSET
     fluid: Annotated[Literal["still", "turning"], says("Motion of the fluid: at rest, or turning with the chain.")] = "still"
     held: Annotated[Held | UnsetType, says("Data of a chain or cord that is held at both ends.")] = UNSET

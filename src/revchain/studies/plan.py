@@ -30,12 +30,12 @@ Labels = dict[str, tuple[int, ...]]  # by name of an output its modes, shapes or
 class Output(NamedTuple):
     """A result that a study can store, and how it is found."""
 
-    question: str  # "modes", "shapes" or "response"
+    question: str  # one of `STUDIED`
     of: Callable[[Any], Any]  # one number, or a list of them, from the answer to the question
     unit: str = ""
     kind: str = "f8"  # "f8", "i8" or "?"; NaN, 0 or False stands for a missing result
-    along: str = ""  # "mode", "shape", "speed", or empty for one number
-    only: str = ""  # "rig", "spinning" (a rig with momentum) or "other" (not a rig); empty for all systems
+    along: str = ""  # "mode", "shape", "speed", "order" ..., or empty for one number
+    only: str = ""  # "rig", "spinning" (a rig with momentum), "other" (not a rig), "stops" or "turning"; empty for all
 
 
 def _turning(name: str, sign: int, modes: Any) -> Any:
@@ -47,6 +47,17 @@ def _of_each(name: str, link: int, shapes: Any) -> list[Any]:
     return [getattr(shape, name)[link] for shape in shapes]
 
 
+def _between_stops(name: str, found: Any) -> float:
+    """A number of a governor, which is the answer itself where no speed was asked for."""
+    return getattr(getattr(found, "governor", found), name)  # type: ignore[no-any-return]
+
+
+def _first_crossings(found: Any) -> list[float]:
+    """The lowest speed at which a frequency meets each multiple of the speed; NaN if none does."""
+    met = {order: [one.angular_speed for one in found.crossings if one.order == order] for order in found.orders}
+    return [min(met[order], default=math.nan) for order in found.orders]
+
+
 def _signed(numbers: Any) -> Any:
     """Numbers with their signs; of complex ones, with dashpots, the sizes."""
     return np.abs(numbers) if np.iscomplexobj(numbers) else numbers
@@ -54,7 +65,13 @@ def _signed(numbers: Any) -> Any:
 
 _OF_MODES = {"angular_speed": "rad/s", "conical_height": "m", "error_bound": "", "speed_error_bound": ""}
 _TURNS = (("forward", 1, "rig"), ("backward", -1, "spinning"))
-_ANSWERS = {"modes": Scene.modes, "shapes": Scene.steady_shapes, "response": Scene.response}
+_ANSWERS = {
+    "modes": Scene.modes, "shapes": Scene.steady_shapes, "response": Scene.response, "campbell": Scene.campbell,
+    "equilibria": Scene.equilibria,
+}  # fmt: skip
+STUDIED = tuple(_ANSWERS)
+_OF_STOPS = {"lowest_speed": "rad/s", "highest_speed": "rad/s", "lift": "m", "sensitiveness": "", "insensitiveness": ""}
+_OF_EQUILIBRIA = {"inclination": "rad", "lift": "m", "ball_radius": "m", "period": "s"}
 OUTPUTS = {
     **{name: Output("modes", attrgetter(name), _OF_MODES[name], "f8", "mode", "other") for name in list(_OF_MODES)[:3]},
     **{
@@ -77,6 +94,19 @@ OUTPUTS = {
     "response_largest_offset": Output("response", lambda moved: np.abs(moved.offset).max(axis=-1), "m", along="speed"),
     "support_force": Output("response", lambda moved: _signed(moved.support_force), "N", along="speed"),
     "response_error_bound": Output("response", attrgetter("_error"), along="speed"),
+    "first_crossing": Output("campbell", _first_crossings, "rad/s", along="order"),
+    "lowest_frequency": Output("campbell", attrgetter("lowest"), "rad/s", along="campbell_speed"),
+    "stable": Output("campbell", attrgetter("stable"), kind="?", along="campbell_speed"),
+    **{
+        f"{'sleeve_' * (name == 'lift')}{name}": Output("equilibria", partial(_between_stops, name), unit, only="stops")
+        for name, unit in _OF_STOPS.items()
+    },
+    "equilibria": Output("equilibria", len, kind="i8", only="turning"),
+    **{
+        f"equilibrium_{name}": Output("equilibria", attrgetter(name), unit, along="equilibrium", only="turning")
+        for name, unit in _OF_EQUILIBRIA.items()
+    },
+    "equilibrium_stable": Output("equilibria", attrgetter("stable"), kind="?", along="equilibrium", only="turning"),
 }
 
 
@@ -88,7 +118,7 @@ class Plan:
     axes: tuple[Axis, ...]
     shape: tuple[int, ...]  # number of values of each grid, then of samples; the last one varies fastest
     seed: int
-    find: tuple[str, ...]  # "modes", "shapes", "response"
+    find: tuple[str, ...]  # of `STUDIED`
     outputs: Labels
     links: Links | None  # how links follow the varied numbers, if heights come from `revchain.conical_heights`
 
@@ -165,20 +195,29 @@ def answers(scene: Scene, find: Sequence[str]) -> tuple[dict[str, Any], bool]:
 
 def asked_of(scene: Scene, wanted: Sequence[str] | UnsetType, numbers: Numbers) -> tuple[str, ...]:
     """The questions in the order of the columns: `wanted`, or those of the scene. Errors are noted."""
-    asked: list[str] = [name for name in ("modes", "shapes", "response") if name in scene.asks] or ["modes"]
+    asked: list[str] = [name for name in STUDIED if name in scene.asks]
+    always = "modes" if scene.governor is UNSET else "equilibria"
     if isinstance(wanted, UnsetType):
-        for name in set(scene.asks) - {"modes", "shapes", "response"}:
+        asked = asked or [always]
+        for name in set(scene.asks) - set(STUDIED):
             numbers.refuse(f"scene.ask.{name}", 'is not for studies; say what is: find = ["modes"]')
     else:
         for k, name in enumerate(wanted):
-            if name not in ("modes", *asked):
+            if name == ("equilibria" if always == "modes" else "modes"):
+                numbers.refuse(f"find[{k}]", f'has no answer for this system: write "{always}"')
+            elif name not in (always, *asked):
                 numbers.refuse(f"find[{k}]", f"the scene does not say at which speed: [ask.{name}]")
-        asked = [name for name in ("modes", "shapes", "response") if name in wanted]
+        asked = [name for name in STUDIED if name in wanted]
     for name in ("conical_height", "angular_speed"):
         if "modes" in asked and getattr(scene.ask.modes, name, UNSET) is not UNSET:
             numbers.refuse(f"scene.ask.modes.{name}", "gives each point another number of modes; give count and first")
-    if "response" in asked and (scene.is_held or scene.cord is not UNSET):
-        numbers.refuse("scene.ask.response", f"does not go with {'held' if scene.is_held else 'cord'}")
+    for name in ("response", "campbell"):
+        if name in asked and (scene.is_held or scene.cord is not UNSET):
+            numbers.refuse(f"scene.ask.{name}", f"does not go with {'held' if scene.is_held else 'cord'}")
+    governor = scene.governor
+    if "equilibria" in asked and not isinstance(governor, UnsetType):
+        if governor.lowest_inclination is UNSET and not _turns(scene):
+            numbers.refuse("scene.governor", "gives no number to store: write its two stops, or a speed in [ask.equilibria]")
     if "modes" in asked and not isinstance(scene.held, UnsetType) and scene.held.span is not UNSET:
         numbers.refuse("scene.held.span", 'makes the chain bent, without modes: write find = ["shapes"]')
     return tuple(asked)
@@ -186,13 +225,21 @@ def asked_of(scene: Scene, wanted: Sequence[str] | UnsetType, numbers: Numbers) 
 
 def outputs_of(scene: Scene, largest: Scene, find: tuple[str, ...], max_shapes: int, bounds: bool) -> Labels:
     """The outputs of a study; `largest` is the scene of the point with the most modes."""
-    kinds = ("", "rig", *["spinning"] * scene.system().has_momentum) if scene.is_rigged else ("", "other")
-    labels: dict[str, tuple[int, ...]] = {"": (), "shape": tuple(range(1, max_shapes + 1))}
+    spins = getattr(scene.system(), "has_momentum", False)
+    kinds = ["", "rig", *["spinning"] * spins] if scene.is_rigged else ["", "other"]
+    if not isinstance(scene.governor, UnsetType):
+        stops = scene.governor.lowest_inclination is not UNSET
+        kinds = ["", *["stops"] * stops, *["turning"] * _turns(scene)]
+    several = tuple(range(1, max_shapes + 1))
+    labels: dict[str, tuple[int, ...]] = {"": (), "shape": several, "equilibrium": several}
     if "modes" in find:
         labels["mode"] = _modes_of(scene, largest)
-    if "response" in find:
-        count = _speeds_of(scene.ask.response)
-        labels["speed"] = tuple(range(1, count + 1)) if count > 1 else ()
+    if not isinstance(ask := scene.ask.campbell, UnsetType) and "campbell" in find:
+        labels["order"] = (1, 2) if isinstance(ask.orders, UnsetType) else tuple(ask.orders)
+    for name, dimension in (("response", "speed"), ("campbell", "campbell_speed")):
+        if name in find:
+            count = _speeds_of(getattr(scene.ask, name))
+            labels[dimension] = tuple(range(1, count + 1)) if count > 1 else ()
     return {
         name: labels[output.along]
         for name, output in OUTPUTS.items()
@@ -207,7 +254,8 @@ def columns_of(name: str, labels: tuple[int, ...]) -> list[str]:
 
 def _modes_of(scene: Scene, largest: Scene) -> tuple[int, ...]:
     """Numbers of the modes with columns: those asked for, at most those of the point with the most modes."""
-    ask, system = scene.ask.modes, largest.system()
+    ask = scene.ask.modes
+    system: Any = largest.system()
     ask = AskModes() if isinstance(ask, UnsetType) else ask
     first = 1 if isinstance(ask.first, UnsetType) else ask.first
     if system._kind == "rig":
@@ -219,7 +267,12 @@ def _modes_of(scene: Scene, largest: Scene) -> tuple[int, ...]:
     return tuple(range(first, first + count))
 
 
+def _turns(scene: Scene) -> bool:
+    """Whether a governor is asked for its equilibria at one speed."""
+    return not isinstance(scene.ask.equilibria, UnsetType) and scene.ask.equilibria.angular_speed is not UNSET
+
+
 def _speeds_of(ask: Any) -> int:
-    """Number of speeds of [ask.response]."""
+    """Number of speeds of [ask.response] or [ask.campbell]."""
     given = ask.conical_height if ask.angular_speed is UNSET else ask.angular_speed
     return given.steps if isinstance(given, Spread) else len(given) if isinstance(given, list) else 1

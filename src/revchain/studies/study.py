@@ -10,6 +10,7 @@ from typing import Annotated, Any, Literal, Self
 
 from msgspec import UNSET, Meta, UnsetType, to_builtins
 
+from ..closed_forms.governor import SleeveGovernor
 from ..scenes import parse
 from ..scenes.system import Numbers
 from ..scenes.error import Problem, SceneError
@@ -19,11 +20,11 @@ from ..scenes.tables import Table, says
 from ..systems.numbers import file_path, integer, text
 from .axes import LAWS, MAX_POINTS, Axis, Samples, Vary, axis_of, with_value
 from .batch import links_of
-from .plan import Plan, answers, asked_of, columns_of, outputs_of
+from .plan import OUTPUTS, Plan, answers, asked_of, columns_of, outputs_of
 
 __all__ = ["Study", "load_study"]
 
-Finds = Annotated[list[Literal["modes", "shapes", "response"]], Meta(min_length=1)]
+Finds = Annotated[list[Literal["modes", "shapes", "response", "campbell", "equilibria"]], Meta(min_length=1)]
 MostShapes = Annotated[int, Meta(ge=1, le=1000)]
 
 
@@ -41,11 +42,11 @@ class Study(Table, frozen=True):
         Number of points with random numbers at each point of the grids.
     seed : int
         Seed of the random numbers.
-    find : list of {"modes", "shapes", "response"}, optional
-        Questions to answer. If left out, those of the scene: its shapes and response, and its modes if it has a table
-        for them or no other question.
+    find : list of {"modes", "shapes", "response", "campbell", "equilibria"}, optional
+        Questions to answer. If left out, those for which the scene has a table; if it has none, its modes, or the
+        equilibria of a governor.
     max_shapes : int
-        Largest number of stored steady shapes of each point.
+        Largest number of stored steady shapes, or equilibria of a governor, of each point.
     error_bounds : bool, optional
         Whether to store error bounds. If left out, they are stored, except for plain chains of up to 100 links: those are
         computed in batches (`revchain.conical_heights`, accurate to 5 ulp) without bounds.
@@ -80,7 +81,7 @@ class Study(Table, frozen=True):
     ] = UNSET
     seed: Annotated[Annotated[int, Meta(ge=0)], says("Seed of the random numbers.")] = 0
     find: Annotated[Finds | UnsetType, says("Questions to answer; those of the scene if left out.")] = UNSET
-    max_shapes: Annotated[MostShapes, says("Largest number of stored steady shapes of each point.")] = 4
+    max_shapes: Annotated[MostShapes, says("Largest number of stored steady shapes or equilibria of each point.")] = 4
     error_bounds: Annotated[
         bool | UnsetType, says("Whether to store error bounds; if left out, batches have none.")
     ] = UNSET
@@ -230,7 +231,7 @@ class Study(Table, frozen=True):
         links = links_of(scene, axes) if batched else None
         bounds = links is None if isinstance(self.error_bounds, UnsetType) else self.error_bounds
         outputs = outputs_of(scene, _largest(base, axes, source), find, self.max_shapes, bounds)
-        columns = {"point", "status", "mode", "shape", "speed", "sample", *outputs}
+        columns = {"point", "status", "sample", *(output.along for output in OUTPUTS.values()), *outputs}
         columns.update(*(columns_of(*output) for output in outputs.items()))
         for axis in axes:
             if axis.name in columns:
@@ -313,6 +314,8 @@ def _check(base: dict[str, Any], axis: Axis, numbers: Numbers) -> None:
 def _kind(scene: Scene) -> str:
     """The kind of the system, which decides the form of the results."""
     system = scene.system()
+    if isinstance(system, SleeveGovernor):
+        return "a governor"
     if system.has_momentum:
         return "a rig with flywheels that spin"
     return "a chain held at both ends" if scene.is_held else f"a {type(system).__name__.lower()}"
@@ -328,4 +331,4 @@ def _largest(base: dict[str, Any], axes: tuple[Axis, ...], source: str) -> Scene
 
 
 def _links(scene: Scene) -> int:
-    return int(scene.system().size)
+    return int(getattr(scene.system(), "size", 0))  # 0 of a governor

@@ -38,18 +38,19 @@ _KINDS = {
 _NAMES = {
     "a length": "length centroid radius_of_gyration pendulum_length length_in_proportion conical_height min_conical_height span radius "
     "tip_radius support_radius offset support_offset arc_length displaced_centroid displaced_radius_of_gyration "
-    "height x arm thread rod distance deflection tip slack sag arc place pendulum",
-    "a mass": "mass added_mass tip_mass",
-    "a force": "weight added_weight tip_weight tension top_tension force support_force friction",
+    "height x arm thread rod distance deflection tip slack sag arc place pendulum lift "
+    "pivot_offset lower_arm joint sleeve_offset sleeve_arm",
+    "a mass": "mass added_mass tip_mass ball_mass sleeve_mass",
+    "a force": "weight added_weight tip_weight tension top_tension force support_force friction spring_force",
     "an acceleration": "gravity acceleration support_acceleration",
-    "a force per length": "stiffness",
+    "a force per length": "stiffness spring_stiffness",
     "a force over a speed": "damping",
     "a torque over an angle": "pin_stiffness",
     "a torque over a rate of angle": "pin_damping",
     "an angular speed": "angular_speed angle_rate spin max_angular_speed low_speed high_speed",
     "a speed": "speed velocity support_velocity",
     "a time": "time period support_time",
-    "an angle": "angle phase inclination lowest_inclination clearance amplitude",
+    "an angle": "angle phase inclination lowest_inclination highest_inclination clearance amplitude",
     "an angular momentum": "momentum",
     "a moment of inertia": "axial_moment shaft_inertia",
     "a fraction": "rtol",
@@ -129,7 +130,8 @@ def _converted(given: Any, quantity: str, text: str = "") -> Any:
     unit, kind, example = SI[quantity]
     if not given.is_compatible_with(unit or "dimensionless"):
         hint = "; give it as mass" if quantity.endswith("weight") and given.is_compatible_with("kg") else ""
-        hint = "; give it as weight" if quantity.endswith("mass") and given.is_compatible_with("N") else hint
+        by_weight = quantity.endswith("mass") and quantity.replace("mass", "weight") in SI
+        hint = "; give it as weight" if by_weight and given.is_compatible_with("N") else hint
         raise ValueError(f'must be {kind} such as "{example}", got "{text or given}"{hint}')
     number = given.m_as(unit or "dimensionless")
     if kind == "an angular speed" and "hertz" in str(given.units):

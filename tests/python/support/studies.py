@@ -7,6 +7,9 @@ GYROSTAT = {
     "support": {"stiffness": 200.0, "mass": 0.1, "radius": 0.02},
     "ask": {"modes": {"count": 3}, "shapes": {"angular_speed": 9.0}, "response": {"angular_speed": {"from": 2.0, "to": 9.0, "steps": 4}}},
 }
+GOVERNOR = {"ball_mass": 2.3, "arm": 0.33, "lower_arm": 0.33, "sleeve_mass": 9.5, "friction": 6.0}
+STOPS = {"lowest_inclination": "25 deg", "highest_inclination": 0.6}
+CAROUSEL = {"links": [{"mass": 80.0, "length": 4.0}], "support": {"radius": 3.0}}
 
 
 def uniform(low, high):
