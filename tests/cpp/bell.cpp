@@ -5,6 +5,8 @@
 #include "revchain/two_links.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
+#include "support/ringing.hpp"
+#include "support/tier.hpp"
 #include "support/truth.hpp"
 
 using revchain::Chain;
@@ -171,3 +173,66 @@ TEST_CASE("a clapper pinned in the axle or above it", "[public]") {
     }
     CHECK_THROWS_AS(revchain::bell_and_clapper_with_ratio<double>(chain, 1.0, 0.0), revchain::InvalidArgument);
 }
+
+namespace {
+
+/// Random bells of every kind against Hamilton's equations in long double.
+void check_first_blows(int many) {
+    support::Random random(1887);
+    double worst = 0, beyond = 0;
+    int struck = 0, turned = 0, unsure = 0;
+    for (int i = 0; i < many; ++i) {
+        const auto chance = [&] { return random.between(0, 1); };
+        revchain::BellAndClapper<double> bell{};
+        bell.present = {1,
+                        random.between(0.1, 1),
+                        random.between(0.01, 0.5),
+                        random.log_between(0.1, 1e3),
+                        random.between(-0.6, 0.6),
+                        random.between(0.02, 0.6),
+                        random.between(0.05, 1)};
+        bell.inverted = {chance() < 0.5, chance() < 0.5};
+        const bool opposite = bell.inverted[0] != bell.inverted[1], circle = !opposite && chance() < 0.3;
+        const double c = random.between(0.1, 0.7), kind = chance();
+        revchain::StrikeStart start{.clearance = c, .gravity = 1};
+        const double angle = random.between(0, 3.141592653589793);
+        if (!circle) start.amplitude = angle;
+        if (kind < 0.4) start.clapper = chance() < 0.5 ? c : -c;
+        if (kind > 0.8 && !circle) start.clapper = c * random.between(-1, 1);
+        // where the clapper starts in the bell, in the sense of the bell's angle
+        const double hangs = std::clamp((opposite ? std::numbers::pi : 0.0) - angle, -c, c);
+        const double at = start.clapper ? (opposite ? *start.clapper : -*start.clapper) : circle ? c : hangs;
+
+        const auto found = revchain::first_strike(bell, start);
+        const auto truth = support::RingingTruth(bell.present, opposite, c).first_blow(angle, at, circle);
+        CAPTURE(i, bell.present, bell.inverted, c, circle, angle, at, found.error_estimate, truth.status);
+        if (std::isinf(found.error_estimate) || truth.closest < 1e-12L) {
+            ++unsure;
+            continue;
+        }
+        REQUIRE(revchain::strike_status_names[static_cast<std::size_t>(found.status)] == truth.status);
+        turned += truth.status == "turns";
+        if (truth.status != "strikes") continue;
+        ++struck;
+        CHECK(found.leading == (truth.side * truth.way > 0));
+        const auto off = [](double x, long double y, long double size) {
+            return static_cast<double>(std::abs((static_cast<long double>(x) - y) / size));
+        };
+        const double error = std::max({off(found.bell_angle, truth.way * truth.bell, 1),
+                                       off(found.relative_speed, truth.way * truth.speed, truth.speed),
+                                       off(found.time, truth.time, truth.time)});
+        worst = std::max(worst, error), beyond = std::max(beyond, error / found.error_estimate);
+        CHECK(error <= found.error_estimate);
+    }
+    CAPTURE(worst, beyond, struck, turned, unsure);
+    CHECK(worst <= 1e-12);
+    CHECK(struck > many / 2);
+    CHECK(turned > many / 10);
+    CHECK(unsure <= many / 500);
+    if (std::getenv("SHOW") != nullptr) std::printf("%g %g %d %d %d\n", worst, beyond, struck, turned, unsure);
+}
+
+}  // namespace
+
+TEST_CASE("first blows against Hamilton's equations", "[public]") { check_first_blows(support::by_tier(200, 600)); }
+TEST_CASE("10,000 random bells", "[.slow]") { check_first_blows(10'000); }
