@@ -103,11 +103,12 @@ py::tuple bell_and_clapper(const Chain& chain, std::optional<double> joint, cons
 }
 
 py::tuple first_strike(const revchain::ByBellDatum<double>& present, const std::array<bool, 2>& inverted,
-                       double clearance, std::optional<double> amplitude, std::optional<double> clapper,
+                       double clearance, std::optional<double> amplitude, std::optional<double> clapper_angle,
                        double gravity) {
-    const auto found =
-        revchain::first_strike({.present = present, .inverted = inverted},
-                               {.clearance = clearance, .amplitude = amplitude, .clapper = clapper, .gravity = gravity});
+    revchain::BellAndClapper<double> bell{};
+    bell.present = present, bell.inverted = inverted;
+    const auto found = revchain::first_strike(
+        bell, {.clearance = clearance, .amplitude = amplitude, .clapper_angle = clapper_angle, .gravity = gravity});
     return py::make_tuple(std::string(revchain::strike_status_names[static_cast<std::size_t>(found.status)]),
                           found.leading, found.bell_angle, found.relative_speed, found.time, found.error_estimate);
 }
@@ -135,7 +136,7 @@ void bind_sensitivity(py::module_& module) {
     module.def("bell_and_clapper", &bell_and_clapper, "chain"_a, "joint"_a, "inverted"_a);
     module.def("bell_and_clapper_with_ratio", &revchain::bell_and_clapper_with_ratio<double>, "chain"_a, "ratio"_a,
                "joint"_a, "inverted"_a);
-    module.def("first_strike", &first_strike, "present"_a, "inverted"_a, "clearance"_a, "amplitude"_a, "clapper"_a,
+    module.def("first_strike", &first_strike, "present"_a, "inverted"_a, "clearance"_a, "amplitude"_a, "clapper_angle"_a,
                "gravity"_a);
     module.def("rig_sensitivity", &rig_sensitivity, "rig"_a, "angular_speed"_a, "offset"_a, "gravity"_a);
     module.def("stiffness_for_speed", &revchain::stiffness_for_speed, "rig"_a, "angular_speed"_a, "gravity"_a);

@@ -100,7 +100,7 @@ struct StrikeStart {
     /// Angle of the clapper in the bell, towards the lower side; at +-clearance it rests on that
     /// side while the bell pushes it. If left out: in a full circle -clearance; else it hangs free
     /// or rests on the lower side.
-    std::optional<double> clapper{};
+    std::optional<double> clapper_angle{};
     double gravity = 9.80665;  ///< m/s^2
 };
 

@@ -205,18 +205,21 @@ inline constexpr double late_start = 0.0625;
 /// One integration up to the first blow.
 inline Strike strike_of(const BellAndClapper<double>& bell, const StrikeStart& start, double nudge,
                         double shorter) {
-    const double none = std::numeric_limits<double>::quiet_NaN(), c = start.clearance;
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    const double c = start.clearance * (1 + nudge);
+    const double fall_from = start.amplitude.value_or(0) * (1 - nudge);
     const bool opposite = bell.inverted[0] != bell.inverted[1], circle = !start.amplitude;
     const RingingPair pair(bell.present, opposite, nudge);
-    const auto at = [&] {  // of the clapper in the bell, against the sense in which the bell falls
-        if (circle) return start.clapper ? -*start.clapper : c;
-        if (start.clapper) return opposite ? *start.clapper : -*start.clapper;
-        return std::clamp((opposite ? std::numbers::pi : 0.0) - *start.amplitude, -c, c);
+    const auto at = [&] {  // of the clapper in the bell, in the sense of the bell's angle
+        if (!start.clapper_angle)
+            return circle ? c : std::clamp((opposite ? std::numbers::pi : 0.0) - fall_from, -c, c);
+        const double angle = opposite ? *start.clapper_angle : -*start.clapper_angle;
+        return std::abs(angle) == start.clearance ? std::copysign(c, angle) : angle;
     }();
     const double side = std::abs(at) == c ? std::copysign(1.0, at) : 0.0;
     double way = circle ? -1 : 0, time = 0;
     RingingPair::State s = circle ? pair.beside_balance(at, near_balance)
-                                  : RingingPair::State{*start.amplitude, at, 0, 0};
+                                  : RingingPair::State{fall_from, at, 0, 0};
     // A pair that stays one piece is a simple pendulum on its separatrix: this start is passed over.
     if (circle && pair.stays(at, near_balance, late_start)) {
         s = pair.beside_balance(at, late_start);
@@ -279,23 +282,25 @@ inline Strike first_strike(const BellAndClapper<double>& bell, const StrikeStart
         detail::throw_invalid(place, "clearance must be between 0 and pi / 2", start.clearance);
     if (start.amplitude && !(*start.amplitude >= 0 && *start.amplitude <= pi))
         detail::throw_invalid(place, "amplitude must be from 0 to pi", *start.amplitude);
-    if (start.clapper && !(std::abs(*start.clapper) <= start.clearance))
-        detail::throw_invalid(place, "clapper must be from -clearance to clearance",
-                              *start.clapper);
-    if (start.clapper && !start.amplitude && std::abs(*start.clapper) != start.clearance)
-        detail::throw_invalid(place, "without amplitude, clapper must be clearance or -clearance",
-                              *start.clapper);
+    if (start.clapper_angle && !(std::abs(*start.clapper_angle) <= start.clearance))
+        detail::throw_invalid(place, "clapper_angle must be from -clearance to clearance",
+                              *start.clapper_angle);
+    if (start.clapper_angle && !start.amplitude &&
+        std::abs(*start.clapper_angle) != start.clearance)
+        detail::throw_invalid(
+            place, "without amplitude, clapper_angle must be clearance or -clearance",
+            *start.clapper_angle);
     if (!start.amplitude && bell.inverted[0] != bell.inverted[1])
-        detail::throw_invalid(place,
-                              "give an amplitude if one of bell and clapper is inverted; inverted "
-                              "bodies",
-                              1);
+        detail::throw_invalid(
+            place, "amplitude must be given if one of bell and clapper is inverted; those inverted",
+            1);
     detail::require_positive(place, "gravity", start.gravity);
     Strike found = detail::strike_of(bell, start, 0, 1);
-    // Again with shorter steps and data changed by their rounding. The factor 8 is from 10,000 bells.
+    // Again with shorter steps and data changed by their rounding; factors are from 10,000 bells.
     const double rounding = 4 * std::numeric_limits<double>::epsilon();
+    if (found.status == StrikeStatus::at_rest) return found;
     if (found.status == StrikeStatus::strikes)
-        found.error_estimate = (start.amplitude ? 4 : 4 + 1 / detail::late_start) * rounding;
+        found.error_estimate = (start.amplitude ? 8 : 8 + 4 / detail::late_start) * rounding;
     double differs = 0;
     for (const double nudge : {rounding, -rounding}) {
         const Strike again = detail::strike_of(bell, start, nudge, 0.7);
@@ -306,7 +311,7 @@ inline Strike first_strike(const BellAndClapper<double>& bell, const StrikeStart
                                 std::abs(again.relative_speed / found.relative_speed - 1),
                                 std::abs(again.time / found.time - 1)});
     }
-    found.error_estimate += 8 * differs;
+    found.error_estimate += 100 * differs;
     return found;
 }
 

@@ -156,13 +156,13 @@ class BellAndClapper(
         return gap / apart if apart else math.inf
 
     @described("angles, speeds and times to 1e-12 of their size, by Taylor series of order 24", "", "1 ms")
-    def first_strike(self, clearance: float, *, amplitude: float | None = None, clapper: float | None = None) -> Strike:
+    def first_strike(self, clearance: float, *, amplitude: float | None = None, clapper_angle: float | None = None) -> Strike:
         """Return the first blow of the clapper in a swing of the bell.
 
         amplitude: Angle from its lowest position from which the bell is released at rest, rad, 0 to pi. If left out,
             the bell is rung full circle, as in English towers: it falls from the balance, mouth up, and is followed
             from 1e-4 rad beside it.
-        clapper: Angle of the clapper from the middle of the bell at the start, towards the lower side, rad, from
+        clapper_angle: Angle of the clapper from the middle of the bell at the start, towards the lower side, rad, from
             ``-clearance`` to ``clearance``. At these ends it rests on the side of the bell while the bell pushes it.
             If left out, it hangs free or rests on the lower side; in a full circle it rests on the trailing side.
         returns: The first blow up to the next turn of the bell, or the status if there is none.
@@ -186,19 +186,19 @@ class BellAndClapper(
 
         Exactly in balance, mouth up, neither body moves:
 
-        >>> bell.first_strike("27 deg", amplitude="180 deg", clapper=0.0).status
+        >>> bell.first_strike("27 deg", amplitude="180 deg", clapper_angle=0.0).status
         'at_rest'
         """
         caller = "revchain.BellAndClapper.first_strike"
         gap = _clearance(caller, clearance)
         from_angle = None if amplitude is None else real(caller, "amplitude", amplitude)
-        of_clapper = None if clapper is None else real(caller, "clapper", clapper)
+        of_clapper = None if clapper_angle is None else real(caller, "clapper_angle", clapper_angle)
         if from_angle is not None and not 0 <= from_angle <= math.pi:
             raise ValueError(f"{caller}: amplitude must be between 0 and pi, got {shown(from_angle)}")
         if of_clapper is not None and not -gap <= of_clapper <= gap:
-            raise ValueError(f"{caller}: clapper must be between -clearance and clearance, got {shown(of_clapper)}")
+            raise ValueError(f"{caller}: clapper_angle must be between -clearance and clearance, got {shown(of_clapper)}")
         if from_angle is None and of_clapper is not None and abs(of_clapper) != gap:
-            raise ValueError(f"{caller}: without amplitude clapper must be clearance or -clearance, got {shown(of_clapper)}")
+            raise ValueError(f"{caller}: without amplitude clapper_angle must be clearance or -clearance, got {shown(of_clapper)}")
         if from_angle is None and self.inverted[0] != self.inverted[1]:
             raise ValueError(f"{caller}: give amplitude if one of clapper and bell is inverted, got {self.inverted.tolist()}")
         status, leading, *numbers, error = _core.first_strike(
@@ -256,10 +256,11 @@ def bell_and_clapper(
     >>> rc.bell_and_clapper(chain, joint=-0.03).angular_speed.round(5)
     array([4.29499, 3.87118])
 
-    The bell's centre of gravity above its axle: it falls, unless the clapper is heavy enough.
+    The centre of gravity of the bell 20 cm above its axle, the clapper's pin 15 cm below it. Mouth down the bell falls,
+    and only the clapper swings:
 
     >>> rc.bell_and_clapper(chain, joint=-0.15, inverted=[False, True]).angular_speed.round(5)
-    array([4.18461,     nan])
+    array([4.29946,     nan])
     """
     caller = "revchain.bell_and_clapper"
     under, stands = compiled(caller, chain), _flags(caller, inverted, 2)

@@ -2,6 +2,7 @@
 // The first blow of a clapper by Hamilton's equations in long double, with extrapolated midpoint steps.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -83,7 +84,8 @@ class RingingTruth {
         const auto [vx, vu] = speeds(y);
         return {vx, vu, -m, on_clapper(y, vx, vu)};
     }
-    State advanced(const State& y, bool rests, R h) const {
+    /// One step; `error` is the change by the last column.
+    State advanced(const State& y, bool rests, R h, R* error = nullptr) const {
         constexpr int columns = 8;
         std::array<std::array<State, columns>, columns> table{};
         for (int j = 0; j < columns; ++j) {
@@ -107,7 +109,13 @@ class RingingTruth {
                 }
             }
         }
-        return table[columns - 1][columns - 1];
+        const auto& last = table[columns - 1];
+        if (error != nullptr) {
+            *error = 0;
+            for (int c = 0; c < 4; ++c)
+                *error = std::max(*error, std::abs(last[columns - 1][c] - last[columns - 2][c]) / (c < 2 ? 1 : bell / unit));
+        }
+        return last[columns - 1];
     }
     /// When a function that is below 0 at time `low` and not at `high` reaches 0.
     template <class F>
@@ -127,32 +135,40 @@ class RingingTruth {
         bool rests = side != 0;
         while (time < 2000 * unit) {
             if (rests && !(side * push(y) < 0)) rests = false;
-            R h = unit / 8, until = h;
+            R h = unit / 8, error = 0;
+            State end = advanced(y, rests, h, &error);
+            while (error > 1e-17L && h > unit / 4096) h /= 2, end = advanced(y, rests, h, &error);
+            R until = h;
             char event = ' ';
             const auto at = [&](R t) { return advanced(y, rests, t); };
-            const State end = at(h);
-            const auto offer = [&](char kind, R low, R high, const auto& f) {
-                const R t = root(low, high, f);
-                if (t < until) until = t, event = kind;
-            };
-            if (way != 0 && -way * spin(end, rests) > 0)
-                offer('b', time == 0 ? h / 64 : 0, h, [&](R t) { return -way * spin(at(t), rests); });
-            if (rests) {
-                if (side * push(end) >= 0) offer('l', 0, h, [&](R t) { return side * push(at(t)); });
-            } else {
-                for (const R s : {R(-1), R(1)}) {
-                    const auto depth = [&](R t) { return s * at(t)[1] - limit; };
-                    const auto falls = [&](R t) { return -s * speeds(at(t))[1]; };
-                    R high = h;
-                    if (s * end[1] < limit) {
-                        if (!(s * speeds(y)[1] > 1e-14L / unit && falls(h) > 0)) continue;
-                        if (s * end[1] < limit - R(0.1)) continue;
-                        high = root(0, h, falls);
-                        result.closest = std::min(result.closest, std::abs(depth(high)));
-                        if (depth(high) < 0) continue;
+            // when a function that is below 0 at first is not, looking for peaks inside the step, too
+            const auto offer = [&](char kind, R low, const auto& f) {
+                R high = h;
+                if (f(h) < 0) {
+                    std::array<R, 9> value;
+                    for (int i = 0; i <= 8; ++i) value[i] = f(low + (h - low) * i / 8);
+                    const auto best = std::max_element(value.begin() + 1, value.end() - 1) - value.begin();
+                    if (value[best] <= value[0] || value[best] <= value[8]) return;
+                    R left = low + (h - low) * (best - 1) / 8, right = low + (h - low) * (best + 1) / 8;
+                    for (int i = 0; i < 60; ++i) {
+                        const R one = left + (right - left) / 3, two = right - (right - left) / 3;
+                        (f(one) < f(two) ? left : right) = f(one) < f(two) ? one : two;
                     }
-                    offer('t', 0, high, depth);
+                    high = (left + right) / 2;
+                    result.closest = std::min(result.closest, std::abs(f(high)));
+                    if (f(high) < 0) return;
                 }
+                const R t = root(low, high, f);
+                if (t <= until) until = t, event = kind;
+            };
+            const R slow = R(0.05) / unit;
+            if (way != 0 && (way * spin(end, rests) < slow || time == 0))
+                offer('b', time == 0 ? h / 64 : 0, [&](R t) { return -way * spin(at(t), rests); });
+            if (rests) {
+                offer('l', 0, [&](R t) { return side * push(at(t)); });
+            } else {
+                for (const R s : {R(-1), R(1)})
+                    if (s * end[1] > limit - R(0.1)) offer('t', 0, [&](R t) { return s * at(t)[1] - limit; });
             }
             y = at(until), time += until;
             if (rests) y[1] = u, y[3] = inertia(u)[1] * y[2] / inertia(u)[0];
