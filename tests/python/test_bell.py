@@ -132,9 +132,9 @@ def test_a_clapper_pinned_above_the_axle_or_in_it():
     assert "2" in str(ABOVE) and ABOVE.plot() is not None
 
 
-# The bell (-0.005, 1.363) of Woodhouse et al. (2012), doi:10.1155/2012/681787: joint and pendulum length of the bell over the
-# pendulum length of the clapper. Ours: that is 0.65 m, contact at 27 degrees, released at rest at 170 degrees, the clapper on
-# the lower side, the bell much heavier than its clapper. A thin body has its radius of gyration equal to its centroid's depth.
+# The bell (-0.005, 1.363) of Woodhouse et al. (2012), doi:10.1155/2012/681787: joint and pendulum length of the bell over
+# the pendulum length of the clapper. Our data: that is 0.65 m, contact at 27 degrees, release at rest at 170 degrees, the
+# clapper on the lower side, a bell much heavier than its clapper. Thin: radius of gyration equal to the centroid's depth.
 THIN = np.array([0.65 / 2, 1.363 * 0.65 / 2])
 
 
@@ -143,7 +143,7 @@ def woodhouse(mass):
     return rc.bell_and_clapper(chain, joint=-0.005 * 0.65)
 
 
-def by_taylor(state, rests, stop, digits=30):
+def by_taylor(state, rests, stop, digits=20):
     """A bell that its clapper does not move, and the clapper: bell angle x, angle u in it. The motion by mpmath to where
     `stop` passes 0: time and state."""
     r, lb, lc, g = (mpmath.mpf(text) for text in ("-0.00325", "0.88595", "0.65", "9.80665"))
@@ -172,8 +172,8 @@ def by_taylor(state, rests, stop, digits=30):
 
 
 def test_bell_of_woodhouse():
-    """1.616683 s, from an integration with contact in 30 digits."""
-    with mpmath.workdps(30):
+    """1.616683 s, from an integration with contact in 20 digits."""
+    with mpmath.workdps(20):
         contact = 27 * mpmath.pi / 180
         lifted, state = by_taylor([170 * mpmath.pi / 180, -contact, 0, 0], True, None)
         assert lifted > 0.1  # it lies on the bell at first
@@ -183,11 +183,12 @@ def test_bell_of_woodhouse():
     blow = woodhouse(1e15).first_strike("27 deg", amplitude="170 deg")
     assert (blow.status, blow.side) == ("strikes", "trailing")
     assert [blow.bell_angle, blow.relative_speed, blow.time] == pytest.approx(truth, rel=1e-13)
-    assert blow.error_estimate < 1e-13
+    assert blow.error_estimate < 1e-12
     errors = [woodhouse(mass).first_strike("27 deg", amplitude="170 deg").time - truth[2] for mass in (1e3, 1e5)]
     assert errors[1] == pytest.approx(errors[0] / 100, rel=2e-3)  # in proportion to the mass of the clapper
-    wrong, right = (woodhouse(1e9).first_strike("27 deg", amplitude="170 deg", clapper_angle=c) for c in ("27 deg", "-27 deg"))
-    assert (wrong.side, right.side) == ("trailing", "leading") and wrong.time == pytest.approx(blow.time, abs=1e-8)
+    sides = [woodhouse(1e9).first_strike("27 deg", amplitude="170 deg", clapper_angle=c) for c in ("27 deg", "-27 deg")]
+    assert [each.side for each in sides] == ["trailing", "leading"]
+    assert sides[0].time == pytest.approx(blow.time, abs=1e-8)
 
 
 def test_speeds_of_bodies_that_stand():
@@ -195,12 +196,11 @@ def test_speeds_of_bodies_that_stand():
     for inverted in ([True, False], [False, True], [True, True]):
         found = rc.bell_and_clapper(LIGHT.system, inverted=inverted, gravity=G)
         modes = rc.modes(rc.Rig(LIGHT.system, inverted=inverted), "all")
-        falls = [height for height in modes.other.conical_height] if hasattr(modes.other, "conical_height") else []
         swings = found.angular_speed[~np.isnan(found.angular_speed)]
         assert len(swings) == 2 - sum(inverted)
         heights = np.sort(found.conical_height[found.conical_height > 0])
         assert np.sort(modes.conical_height) == pytest.approx(heights, rel=1e-14)
-        assert len(falls) in {0, sum(inverted)}
+        assert len(modes.other) == sum(inverted)
         assert found.inverted.tolist() == inverted and found.plot() is not None
     assert rc.bell_and_clapper(LIGHT.system, inverted=True) == rc.bell_and_clapper(LIGHT.system, inverted=[True, True])
     with pytest.raises(ValueError, match="inverted must be True, False or an array"):
@@ -239,7 +239,7 @@ def test_starts_in_balance_and_both_inverted():
     assert both.first_strike(0.4) == LIGHT.first_strike(0.4)
     one = rc.bell_and_clapper(LIGHT.system, inverted=[True, False])
     assert one.first_strike(0.4, amplitude=np.pi, clapper_angle=0.0).status == "at_rest"
-    with pytest.raises(ValueError, match=r"give amplitude if one of clapper and bell is inverted, got \[True, False\]"):
+    with pytest.raises(ValueError, match=r"give amplitude if one of .* is inverted, got inverted=\[True, False\]"):
         one.first_strike(0.4)
     with pytest.raises(ValueError, match="clapper_angle must be between -clearance and clearance, got 0.5"):
         LIGHT.first_strike(0.4, amplitude=1.0, clapper_angle=0.5)
