@@ -327,7 +327,7 @@ void check_first_blows(int many) {
         wide += found.error_estimate > 1e-11;
     }
     CAPTURE(worst, beyond, struck, turned, unsure, wide);
-    CHECK(wide <= 2 + many / 200);
+    CHECK(wide <= 2 + many / 100);
     CHECK(struck > many / 2);
     CHECK(turned > many / 10);
     CHECK(unsure <= many / 500);

@@ -112,6 +112,8 @@ def test_a_bell_is_drawn_at_rest():
     labels = [text.get_text() for text in ax.get_legend().get_texts()]
     assert labels == ["axle", "pin of the clapper", "centroid of the bell", "centroid of the clapper"]
     assert ax.yaxis_inverted()
+    up = rc.bell_and_clapper(LIGHT.system, inverted=[True, False]).plot()
+    assert up.get_ylabel() == "height above axle (m)" and not up.yaxis_inverted()
     low = rc.bell_and_clapper(rc.Chain(mass=[18.0, 500.0], **LINKS | {"centroid": [0.52, 1e-3]}))  # a pendulum of 90 m
     assert "90" in low.plot().get_legend().get_texts()[-1].get_text()
 
