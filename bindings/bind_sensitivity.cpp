@@ -96,10 +96,21 @@ py::tuple tune(const Chain& chain, Index mode, Index link, const std::string& qu
                           found.lowest_height, found.highest_height, found.chain);
 }
 
-py::tuple bell_and_clapper(const Chain& chain, std::optional<double> joint) {
-    const auto found = revchain::bell_and_clapper(chain, joint);
+py::tuple bell_and_clapper(const Chain& chain, std::optional<double> joint, const std::array<bool, 2>& inverted) {
+    const auto found = revchain::bell_and_clapper(chain, joint, inverted);
     return py::make_tuple(found.conical_height, found.inclination_ratio, found.silent_height, found.mismatch,
                           found.present, found.derivative);
+}
+
+py::tuple first_strike(const revchain::ByBellDatum<double>& present, const std::array<bool, 2>& inverted,
+                       double clearance, std::optional<double> amplitude, std::optional<double> clapper_angle,
+                       double gravity) {
+    revchain::BellAndClapper<double> bell{};
+    bell.present = present, bell.inverted = inverted;
+    const auto found = revchain::first_strike(
+        bell, {.clearance = clearance, .amplitude = amplitude, .clapper_angle = clapper_angle, .gravity = gravity});
+    return py::make_tuple(std::string(revchain::strike_status_names[static_cast<std::size_t>(found.status)]),
+                          found.leading, found.bell_angle, found.relative_speed, found.time, found.error_estimate);
 }
 
 py::tuple rig_sensitivity(const revchain::Rig& rig, double angular_speed, const Array& offset, double gravity) {
@@ -122,9 +133,11 @@ void bind_sensitivity(py::module_& module) {
     module.def("with_weight", &revchain::with_weight<double>, "chain"_a, "weight"_a, "pin"_a, "radius_of_gyration"_a);
     module.def("with_thread", &revchain::with_thread<double>, "chain"_a, "length"_a, "pin"_a);
     module.def("clamped", &revchain::clamped<double>, "chain"_a, "link"_a);
-    module.def("bell_and_clapper", &bell_and_clapper, "chain"_a, "joint"_a);
+    module.def("bell_and_clapper", &bell_and_clapper, "chain"_a, "joint"_a, "inverted"_a);
     module.def("bell_and_clapper_with_ratio", &revchain::bell_and_clapper_with_ratio<double>, "chain"_a, "ratio"_a,
-               "joint"_a);
+               "joint"_a, "inverted"_a);
+    module.def("first_strike", &first_strike, "present"_a, "inverted"_a, "clearance"_a, "amplitude"_a, "clapper_angle"_a,
+               "gravity"_a);
     module.def("rig_sensitivity", &rig_sensitivity, "rig"_a, "angular_speed"_a, "offset"_a, "gravity"_a);
     module.def("stiffness_for_speed", &revchain::stiffness_for_speed, "rig"_a, "angular_speed"_a, "gravity"_a);
     module.def("momentum_for_speed", &revchain::momentum_for_speed, "rig"_a, "link"_a, "angular_speed"_a, "gravity"_a);

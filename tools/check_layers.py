@@ -87,6 +87,7 @@ PUBLIC = {
 }
 UMBRELLAS = {name for name, home in PUBLIC.items() if not home}
 FURTHER = {  # more files that define what a header declares
+    "bell.hpp": {"paper/bell_strike.hpp"},
     "cord.hpp": {"analytic/cord_sensitivity.hpp"},
     "held.hpp": {"questions/held_check.hpp"},
     "finite/cord/continuous_chain.hpp": {"finite/cord/steady_shapes.hpp"},

@@ -42,17 +42,21 @@ inline constexpr std::array<std::string_view, 7> bell_datum_names{
 template <Real T>
 using ByBellDatum = std::array<T, bell_datum_names.size()>;
 
-/// The two modes. Bell and clapper lean to the same side in the first and to opposite sides in the
-/// second, so they can swing as one piece in the first only. With the pin of the clapper below the
-/// axle the first is the slower one, above it the faster one.
+/// The two modes of small motion about a position of rest. Bell and clapper lean to the same side in
+/// the first and to opposite sides in the second, so they can swing as one piece in the first only.
+/// With the pin of the clapper below the axle the first is the slower one, above it the faster one.
+/// An inverted body stands on its upper pin. A height below 0 is that of a motion that falls; if one
+/// mode swings and the other falls, the first is the one that swings.
 template <Real T>
 struct BellAndClapper {
     std::array<T, 2> conical_height;
     std::array<T, 2> inclination_ratio;  ///< clapper's over bell's; one piece where the first is 1
-    T silent_height;  ///< l1 + a2: conical height of the slower mode as one piece
-    /// h1 - (m + 1) l1 - m (a2 - l2), m = W2 h2/(W1 a2): a length, 0 if one piece, §8 (16)
+    T silent_height;  ///< l1 + a2, each negative if inverted: conical height as one piece
+    /// h1 - (m + 1) l1 - m (a2 - l2), m = W2 h2/(W1 a2): a length, 0 if one piece, §8 (16). If one
+    /// of the two is inverted, it is h1 - (m + 1) l1 + m (a2 - l2)
     T mismatch;
     ByBellDatum<T> present;     ///< the data
+    std::array<bool, 2> inverted{};  ///< whether clapper and bell stand on their upper pins
     ByBellDatum<T> derivative;  ///< of the first inclination ratio with respect to each datum
 };
 
@@ -61,12 +65,15 @@ struct BellAndClapper {
 /// ulp, derivatives 4 ulp of the sum of their terms' magnitudes (tests/cpp/bell.cpp). Cost O(1).
 /// Throws InvalidArgument unless there are two links, both with weight.
 /// `joint`: distance of the clapper's pin below the axle, instead of the bell's length; negative
-/// above it, and 0 in it: then each swings alone.
+/// above it, and 0 in it: then each swings alone. `inverted`: whether clapper and bell stand on
+/// their upper pins in the position of rest. A bell with its centroid above the axle is an inverted
+/// one: give both distances with the opposite sign.
 template <Real T>
 [[nodiscard]] BellAndClapper<T> bell_and_clapper(
-    const Chain<T>& chain, const std::optional<std::type_identity_t<T>>& joint = {});
+    const Chain<T>& chain, const std::optional<std::type_identity_t<T>>& joint = {},
+    const std::array<bool, 2>& inverted = {});
 
-/// Returns, for each datum, the value nearest to the present one that gives the slower mode the
+/// Returns, for each datum, the value nearest to the present one that gives the first mode the
 /// inclination ratio `ratio`, with all other data constant; NaN if there is none. A ratio of 1
 /// makes bell and clapper one piece; a bell rings with a ratio far enough from 1. Each value is a
 /// root of a quadratic. Cost O(1). Throws InvalidArgument as `bell_and_clapper`, for a ratio <= 0
@@ -74,8 +81,49 @@ template <Real T>
 template <Real T>
 [[nodiscard]] ByBellDatum<T> bell_and_clapper_with_ratio(
     const Chain<T>& chain, const T& ratio,
-    const std::optional<std::type_identity_t<T>>& joint = {});
+    const std::optional<std::type_identity_t<T>>& joint = {},
+    const std::array<bool, 2>& inverted = {});
+
+/// How a swing ends. `turns`: the bell comes to rest before the clapper strikes. `at_rest`: bell and
+/// clapper start in balance, stable or not, and do not move. `too_long`: neither in 300 swings.
+enum class StrikeStatus { strikes, turns, at_rest, too_long };
+
+inline constexpr std::array<std::string_view, 4> strike_status_names{"strikes", "turns", "at_rest",
+                                                                     "too_long"};
+
+/// How bell and clapper are released, at rest. Angles in rad.
+struct StrikeStart {
+    double clearance;  ///< angle of the clapper in the bell from the middle to contact, below pi/2
+    /// Of the bell from its lowest position, 0 to pi. If left out, the bell falls from the balance,
+    /// mouth up, in a full circle; it starts 1e-4 from the balance.
+    std::optional<double> amplitude{};
+    /// Angle of the clapper in the bell, towards the lower side; at +-clearance it rests on that
+    /// side while the bell pushes it. If left out: in a full circle -clearance; else it hangs free
+    /// or rests on the lower side.
+    std::optional<double> clapper_angle{};
+    double gravity = 9.80665;  ///< m/s^2
+};
+
+/// The first blow of a clapper; the numbers are NaN if it does not strike.
+struct Strike {
+    StrikeStatus status;
+    bool leading;       ///< the side struck: that ahead in the direction in which the bell moves
+    double bell_angle;  ///< of the bell past its lowest position, rad
+    double relative_speed;  ///< of the clapper in the bell, rad/s, > 0 towards the leading side
+    double time;            ///< after the start, s
+    /// Of bell_angle in rad, and of the two others relative to their size; infinite if rounding
+    /// decides whether or where the clapper strikes.
+    double error_estimate;
+};
+
+/// The first blow of the clapper in a swing of the bell up to its next turn. A clapper that rests
+/// on a side of the bell moves with it while the bell pushes it, then flies free. Angles count from
+/// the lowest position of the bell, inverted or not; if one of the two bodies is inverted, the
+/// clapper points the other way in the middle of the bell. Throws InvalidArgument for angles out
+/// of range. Cost: 1 ms.
+[[nodiscard]] Strike first_strike(const BellAndClapper<double>& bell, const StrikeStart& start);
 
 }  // namespace revchain
 
 #include "revchain/paper/bell.hpp"
+#include "revchain/paper/bell_strike.hpp"

@@ -5,6 +5,8 @@
 #include "revchain/two_links.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
+#include "support/ringing.hpp"
+#include "support/tier.hpp"
 #include "support/truth.hpp"
 
 using revchain::Chain;
@@ -171,3 +173,167 @@ TEST_CASE("a clapper pinned in the axle or above it", "[public]") {
     }
     CHECK_THROWS_AS(revchain::bell_and_clapper_with_ratio<double>(chain, 1.0, 0.0), revchain::InvalidArgument);
 }
+
+namespace {
+
+/// First ratio and both heights of bells any body of which may stand, from Lagrange's equations in quadruple precision:
+/// (lambda s2 q - C)(lambda s1 p - A) = B^2, ratio s1 s2 B/(lambda s1 p - A).
+std::array<Quad, 3> standing_ratio(const Numbers& x, const std::array<bool, 2>& inverted) {
+    const auto& [W1, h1, k1, W2, a2, h2, k2] = x;
+    const Quad s1 = inverted[0] ? -1 : 1, s2 = inverted[1] ? -1 : 1;
+    const Quad A = W1 * (h1 * h1 + k1 * k1), B = s1 * s2 * W1 * h1 * a2, C = W2 * (h2 * h2 + k2 * k2) + W1 * a2 * a2;
+    const Quad p = s1 * W1 * h1, q = s2 * (W2 * h2 + W1 * a2);
+    const Quad half = (A / p + C / q) / 2, root = sqrtq(half * half - (A * C - B * B) / (p * q));
+    Quad first = half + root, other = half - root;
+    const auto ratio = [&](Quad lambda) { return B / (lambda * p - A); };
+    if (p * q < 0 ? first < 0 : ratio(first) < 0) std::swap(first, other);
+    return {ratio(first), first, other};
+}
+
+}  // namespace
+
+TEST_CASE("bells and clappers that stand on their pins", "[linear]") {
+    support::Random random(1908);
+    double worst = 0, worst_derivative = 0, worst_given = 0;
+    int given = 0, falling = 0;
+    for (int i = 0; i < support::by_tier(300, 10'000); ++i) {
+        const double a = random.log_between(0.01, 1) * (random.between(0, 1) < 0.5 ? 1 : -1);
+        const Numbers x{random.log_between(0.1, 100), random.between(0.1, 1),    random.between(0.01, 0.5),
+                        random.log_between(1, 1e3),   a,                         random.between(0.02, 0.6),
+                        random.between(0.05, 1)};
+        const std::array<bool, 2> inverted{random.between(0, 1) < 0.5, random.between(0, 1) < 0.5};
+        const auto numbers = [&](const Numbers& y, const std::optional<double>& ratio = {}) {
+            Numbers z = y;
+            z[4] = 1;  // the length of the bell is not used
+            z[5] = fabsq(z[5]);
+            const auto chain = chain_of(z);
+            const double joint = static_cast<double>(y[4]);
+            return std::pair(revchain::bell_and_clapper<double>(chain, joint, inverted),
+                             ratio ? revchain::bell_and_clapper_with_ratio<double>(chain, *ratio, joint, inverted)
+                                   : revchain::ByBellDatum<double>{});
+        };
+        const auto exact = standing_ratio(x, inverted);
+        const Quad moment = x[3] * x[5] + x[0] * x[4];
+        if (fabsq(moment) < 1e-3 * x[3] * x[5]) continue;
+        const auto found = numbers(x).first;
+        const auto off = [](double y, Quad t) { return static_cast<double>(fabsq((y - t) / t)); };
+        CAPTURE(i, inverted, a, static_cast<double>(moment));
+        CHECK(found.inverted == inverted);
+        worst = std::max({worst, off(found.inclination_ratio[0], exact[0]), off(found.conical_height[0], exact[1]),
+                          off(found.conical_height[1], exact[2])});
+        falling += exact[1] > 0 && exact[2] < 0;
+        double largest = 0, error = 0;
+        for (std::size_t d = 0; d < 7; ++d) {
+            const Quad step = Quad(1e-10) * fabsq(x[d]);
+            Numbers up = x, down = x;
+            up[d] += step, down[d] -= step;
+            const Quad slope = (standing_ratio(up, inverted)[0] - standing_ratio(down, inverted)[0]) / (2 * step);
+            largest = std::max(largest, static_cast<double>(fabsq(slope * x[d])));
+            error = std::max(error, static_cast<double>(fabsq((found.derivative[d] - slope) * x[d])));
+        }
+        worst_derivative = std::max(worst_derivative, error / largest);
+        for (const double wanted : {0.6, 1.0, 2.5}) {
+            const auto values = numbers(x, wanted).second;
+            for (std::size_t d = 0; d < 7; ++d) {
+                if (std::isnan(values[d]) || (d == 5 && values[d] < 0)) continue;
+                ++given;
+                Numbers changed = x;
+                changed[d] = values[d];
+                const Quad again = standing_ratio(changed, inverted)[0];
+                const double slack = 1e-15 * (1 + std::abs(numbers(changed).first.derivative[d] * values[d]));
+                CAPTURE(d, wanted, values[d], static_cast<double>(again));
+                CHECK(fabsq(again - wanted) <= slack);
+                worst_given = std::max(worst_given, static_cast<double>(fabsq(again - wanted)) / slack);
+            }
+        }
+    }
+    CAPTURE(worst, worst_derivative, worst_given, given, falling);
+    CHECK(worst <= 4.5e-16);
+    CHECK(worst_derivative <= 1e-15);
+    CHECK(given > 500);
+    CHECK(falling > 50);
+}
+
+TEST_CASE("a silent bell with its centroid above the axle", "[public]") {
+    // The pin of the clapper is 60 cm below the axle; the other data are chosen one at a time for a ratio of 1.
+    const Numbers x{18, 0.52, 0.08, 100, 0.15, 0.05, 0.30};
+    const std::array<bool, 2> bell_stands{false, true};
+    const auto values = revchain::bell_and_clapper_with_ratio<double>(chain_of(x), 1.0, -0.6, bell_stands);
+    int silent = 0;
+    for (const std::size_t d : {0, 1, 2, 3, 5, 6}) {
+        if (!(values[d] > 0)) continue;
+        Numbers changed = x;
+        changed[d] = values[d];
+        const auto found = revchain::bell_and_clapper<double>(chain_of(changed), -0.6, bell_stands);
+        CAPTURE(d, values[d], found.mismatch, found.silent_height, found.conical_height);
+        CHECK(std::abs(found.mismatch) <= 1e-13);
+        CHECK(std::abs(found.inclination_ratio[0] - 1) <= 1e-13);
+        CHECK(std::abs(found.conical_height[0] / found.silent_height - 1) <= 1e-13);
+        ++silent;
+    }
+    CHECK(silent >= 2);
+}
+
+namespace {
+
+/// Random bells of every kind against Hamilton's equations in long double.
+void check_first_blows(int many) {
+    support::Random random(1887);
+    double worst = 0, beyond = 0;
+    int struck = 0, turned = 0, unsure = 0, wide = 0;
+    for (int i = 0; i < many; ++i) {
+        const auto chance = [&] { return random.between(0, 1); };
+        revchain::BellAndClapper<double> bell{};
+        bell.present = {1,
+                        random.between(0.1, 1),
+                        random.between(0.01, 0.5),
+                        random.log_between(0.1, 1e3),
+                        random.between(-0.6, 0.6),
+                        random.between(0.02, 0.6),
+                        random.between(0.05, 1)};
+        bell.inverted = {chance() < 0.5, chance() < 0.5};
+        const bool opposite = bell.inverted[0] != bell.inverted[1], circle = !opposite && chance() < 0.3;
+        const double c = random.between(0.1, 0.7), kind = chance();
+        revchain::StrikeStart start{.clearance = c, .gravity = 1};
+        const double angle = random.between(0, 3.141592653589793);
+        if (!circle) start.amplitude = angle;
+        if (kind < 0.4) start.clapper_angle = chance() < 0.5 ? c : -c;
+        if (kind > 0.8 && !circle) start.clapper_angle = c * random.between(-1, 1);
+        // where the clapper starts in the bell, in the sense of the bell's angle
+        const double hangs = std::clamp((opposite ? std::numbers::pi : 0.0) - angle, -c, c);
+        const double given = start.clapper_angle.value_or(0);
+        const double at = start.clapper_angle ? (opposite ? given : -given) : circle ? c : hangs;
+
+        const auto found = revchain::first_strike(bell, start);
+        const auto truth = support::RingingTruth(bell.present, opposite, c).first_blow(angle, at, circle);
+        CAPTURE(i, bell.present, bell.inverted, c, circle, angle, at, found.error_estimate, truth.status);
+        if (std::isinf(found.error_estimate) || truth.closest < 1e-12L) {
+            ++unsure;
+            continue;
+        }
+        REQUIRE(revchain::strike_status_names[static_cast<std::size_t>(found.status)] == truth.status);
+        turned += truth.status == "turns";
+        if (truth.status != "strikes") continue;
+        ++struck;
+        CHECK(found.leading == (truth.side * truth.way > 0));
+        const auto off = [](double x, long double y, long double size) {
+            return static_cast<double>(std::abs((static_cast<long double>(x) - y) / size));
+        };
+        const double error = std::max({off(found.bell_angle, truth.way * truth.bell, 1),
+                                       off(found.relative_speed, truth.way * truth.speed, truth.speed),
+                                       off(found.time, truth.time, truth.time)});
+        worst = std::max(worst, error), beyond = std::max(beyond, error / found.error_estimate);
+        CHECK(error <= found.error_estimate);
+        wide += found.error_estimate > 1e-11;
+    }
+    CAPTURE(worst, beyond, struck, turned, unsure, wide);
+    CHECK(wide <= 2 + many / 100);
+    CHECK(struck > many / 2);
+    CHECK(turned > many / 10);
+    CHECK(unsure <= many / 500);
+}
+
+}  // namespace
+
+TEST_CASE("first blows against Hamilton's equations", "[public]") { check_first_blows(support::by_tier(200, 600)); }
+TEST_CASE("10,000 random bells", "[.slow]") { check_first_blows(10'000); }

@@ -347,7 +347,8 @@ def plot_bell(bell: BellAndClapper, ax: Axes | None = None) -> Axes:
     'depth below axle (m)'
     """
     data = bell.present
-    pin, h1, h2 = data["joint"], data["clapper_centroid"], data["bell_centroid"]
+    turned = -1.0 if bell.inverted[0] != bell.inverted[1] else 1.0  # the clapper points down, or up if it stands
+    pin, h1, h2 = turned * data["joint"], data["clapper_centroid"], turned * data["bell_centroid"]
     gyration = data["clapper_radius_of_gyration"], data["bell_radius_of_gyration"]
     l1, l2 = (h + rho**2 / h if h else np.inf for h, rho in zip((h1, h2), gyration, strict=True))
     lip = pin + 1.3 * h1  # the ball is at the centroid of the clapper
@@ -380,10 +381,14 @@ def plot_bell(bell: BellAndClapper, ax: Axes | None = None) -> Axes:
             continue
         ax.plot([x, x], [start, start + length], color=colour, linewidth=1.2, marker="_", markersize=12.0)
         ax.annotate(name.split()[1], (x, start + length / 2), xytext=(5, 0), textcoords="offset points", color=colour)
-    ax.set(xlabel="distance from axle (m)", ylabel="depth below axle (m)", aspect="equal")
-    ax.set_title(f"Clapper / bell in the slower mode: {bell.inclination_ratio[0]:.3g}")
+    stands = bool(bell.inverted[0])
+    depth_of = "height above" if stands else "depth below"
+    ax.set(xlabel="distance from axle (m)", ylabel=f"{depth_of} axle (m)", aspect="equal")
+    swing = bool((bell.conical_height > 0).all())
+    which = ("slower" if bell.mode[0] == 1 else "faster") if swing else "first"
+    ax.set_title(f"Clapper / bell in the {which} mode: {bell.inclination_ratio[0]:.3g}")
     ax.margins(0.1)
-    if not ax.yaxis_inverted():
+    if not stands and not ax.yaxis_inverted():
         ax.invert_yaxis()
     legend_outside(ax)
     return ax
