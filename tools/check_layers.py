@@ -88,7 +88,7 @@ PUBLIC = {
 UMBRELLAS = {name for name, home in PUBLIC.items() if not home}
 FURTHER = {  # more files that define what a header declares
     "bell.hpp": {"paper/bell_strike.hpp"},
-    "cord.hpp": {"analytic/cord_sensitivity.hpp"},
+    "cord.hpp": {"analytic/cord_sensitivity.hpp", "analytic/cord_swing.hpp"},
     "held.hpp": {"questions/held_check.hpp"},
     "finite/cord/continuous_chain.hpp": {"finite/cord/steady_shapes.hpp"},
     "finite/cord/branches.hpp": {"finite/cord/branch_shapes.hpp"},

@@ -267,4 +267,5 @@ REVCHAIN_DECLARE_ANALYTIC
 #if !defined(REVCHAIN_COMPILED_ANALYTIC)
 #include "revchain/analytic/cord.hpp"
 #include "revchain/analytic/cord_sensitivity.hpp"
+#include "revchain/analytic/cord_swing.hpp"
 #endif

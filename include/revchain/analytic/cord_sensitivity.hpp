@@ -2,6 +2,7 @@
 #pragma once
 
 #include "revchain/analytic/cord.hpp"
+#include "revchain/analytic/cord_start.hpp"
 #include "revchain/cord.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/gauss_rule.hpp"

@@ -153,11 +153,11 @@ class Cord {
         density_ = std::move(given);
         if (weights_.empty()) return;
         if (!density_)
-            density_ =
-                exponent_ == 0.0
-                    ? std::make_shared<const LineDensity>(
-                          length_, std::vector<DensityPiece>{{length_ / 2, length_ / 2, {1.0}}})
-                    : power();
+            density_ = exponent_ == 0.0
+                           ? std::make_shared<const LineDensity>(
+                                 length_,
+                                 std::vector<LineDensity::Piece>{{length_ / 2, length_ / 2, {1.0}}})
+                           : power();
         density_ = std::make_shared<const LineDensity>(
             density_->with_particles(weight_ / density_->total(), weights_));
     }

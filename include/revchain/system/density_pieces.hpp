@@ -9,7 +9,7 @@
 #include "revchain/numeric/status.hpp"
 #include "revchain/numeric/zero_between.hpp"
 
-namespace revchain::inline REVCHAIN_BUILD {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// The density between two points, as a polynomial or, at the free end, as a power of s, and the
 /// particle at the upper point.
@@ -33,8 +33,6 @@ struct DensityPiece {
         return sum;
     }
 };
-
-namespace detail {
 
 /// Finds pieces that give a function to its rounding; the method is described at `LineDensity`.
 class DensityFit {
@@ -222,6 +220,4 @@ class DensityFit {
     std::vector<Piece> pieces_;
 };
 
-}  // namespace detail
-
-}  // namespace revchain
+}  // namespace revchain::detail

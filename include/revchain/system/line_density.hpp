@@ -12,12 +12,12 @@ namespace revchain::inline REVCHAIN_BUILD {
 /// The weight per unit of length of a chain, as piecewise polynomials of the distance s from its
 /// free end, with particles between the pieces.
 ///
-/// Method (`detail::DensityFit`): pieces are halved until a polynomial of degree 12 through Chebyshev points gives the
-/// function to its rounding. The two are compared between these points, at the ends, and on a grid
-/// of 1021 points over the whole length. A piece narrower than 2^-45 s is not halved. It gets the
-/// mean of the function, from the position of a single jump or from 64 values. A jump or a corner
-/// costs about fifty pieces. At the free end a piece of 2^-40 of the length holds a power law c
-/// s^p.
+/// Method (`detail::DensityFit`): pieces are halved until a polynomial of degree 12 through Chebyshev
+/// points gives the function to its rounding. The two are compared between these points, at the
+/// ends, and on a grid of 1021 points over the whole length. A piece narrower than 2^-45 s is not
+/// halved. It gets the mean of the function, from the position of a single jump or from 64 values.
+/// A jump or a corner costs about fifty pieces. At the free end a piece of 2^-40 of the length holds
+/// a power law c s^p.
 /// A feature at least 1/1000 of the length wide is always found, and its ends are accurate to
 /// rounding. A narrower feature may lie between the grid points and is then not stored, unless its
 /// ends are given as `breaks`: pieces end there, and a jump costs nothing.
@@ -26,9 +26,9 @@ namespace revchain::inline REVCHAIN_BUILD {
 /// Cost: 1200 values of a smooth function, 1500 more for a jump, at most 2 million.
 class LineDensity {
    public:
-    static constexpr int degree = DensityPiece::degree;
-    using Piece = DensityPiece;
-    using Coefficients = DensityPiece::Coefficients;
+    static constexpr int degree = detail::DensityPiece::degree;
+    using Piece = detail::DensityPiece;
+    using Coefficients = detail::DensityPiece::Coefficients;
     static constexpr double most_doubt = 1e-6;      // of the total weight
     static constexpr double least_place = 0x1p-20;  // of particles and breaks, over the length
 
@@ -152,7 +152,8 @@ class LineDensity {
     /// The point below which the density is a power of s instead of a polynomial; mostly 0.
     double end_of_power() const { return pieces_.front().power != 0 ? end(pieces_.front()) : 0.0; }
     /// First moment of the chain below s about the free end, divided by s times the weight below s,
-    /// where no particle is below s. The density is taken as a power of s, which is right to first order near the free end.
+    /// where no particle is below s. The density is taken as a power of s, which is right to first
+    /// order near the free end.
     double first_moment(double s) const {
         const double power = about(s)[0] * s / weight_below(s) - 1;
         return (power + 1) / (power + 2);
@@ -252,7 +253,7 @@ class LineDensity {
         return after == pieces_.end() ? pieces_.back() : *after;
     }
     static double polynomial(const Coefficients& factor, double t) {
-        return DensityPiece::polynomial(factor, t);
+        return detail::DensityPiece::polynomial(factor, t);
     }
     /// Weight of the piece from its left end to t.
     static double weight_within(const Piece& piece, double t) {

@@ -172,10 +172,12 @@ class DisturbedCord {
         }
         if (jumps.size() > most) jumps.clear();
         const std::size_t found = jumps.size();
-        for (const auto& [at, weight] : shape_.particles)  // where the cord turns
+        for (const auto& particle : shape_.particles) {  // where the cord turns
+            const double at = particle.first;
             if (std::none_of(jumps.begin(), jumps.begin() + static_cast<std::ptrdiff_t>(found),
                              [&](double x) { return std::abs(x - at) < narrow(); }))
                 jumps.push_back(at);
+        }
         const auto has_jump = [&](double at) {
             return std::any_of(jumps.begin(), jumps.end(),
                                [&](double x) { return std::abs(x - at) < narrow(); });
