@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Cords with particles, jumps of the density and a bob; Bessel functions piece by piece are in tests/python/test_cord_masses.py.
+#include <random>
+
 #include "revchain/chain.hpp"
 #include "revchain/cord.hpp"
 
@@ -34,7 +36,93 @@ Chain<double> links(Index count, double length, double weight, const std::map<do
     return Chain<double>(made);
 }
 
+/// Power series of a uniform cord at small amplitude in quadruple precision: u' = -(w/lambda) y, y' = u/V (' by s).
+class QuadCord {
+   public:
+    using Q = __float128;
+
+    explicit QuadCord(const Cord& cord) : cord_(cord), line_(Q(cord.weight()) / Q(cord.length())) {}
+
+    /// The error of a height by one step of the secant method, relative.
+    double error(double height) const {
+        const Q low = height, high = low * (1 + Q(1e-13)), at_low = at_support(low), at_high = at_support(high);
+        return std::abs(static_cast<double>(at_low * (high - low) / (at_high - at_low) / low));
+    }
+
+   private:
+    Q at_support(Q height) const {
+        Q below = cord_.tip_weight(), offset = 1, pull = -below / height, at = 0;
+        if (cord_.has_bob()) {  // at the inclination 1
+            const Q h = cord_.tip_centroid(), k = cord_.tip_radius_of_gyration();
+            offset = height - (h + k * k / h), pull = -below / height * (offset + h);
+        }
+        const auto advance_to = [&](Q place) {
+            while (place - at > place * Q(1e-33)) advance(at, below, offset, pull, place, height);
+            at = place;
+        };
+        for (const auto& [s, weight] : cord_.weights()) {
+            advance_to(s);
+            pull -= Q(weight) / height * offset, below += weight;
+        }
+        advance_to(cord_.length());
+        return offset;
+    }
+    void advance(Q& at, Q& below, Q& offset, Q& pull, Q place, Q height) const {
+        Q step = std::min(place - at, below / line_ / 4);
+        while (step * step * line_ > height * below) step /= 2;
+        Q y = offset, u = pull, power = 1;
+        for (int k = 0; k < 120; ++k) {
+            const Q y_next = (u - Q(k) * line_ * y) / (below * Q(k + 1)), u_next = -line_ / height * y / Q(k + 1);
+            power *= step, y = y_next, u = u_next;
+            offset += y * power, pull += u * power;
+        }
+        at += step, below += line_ * step;
+    }
+
+    const Cord& cord_;
+    Q line_;
+};
+
+/// Cords with up to 8 particles and a tip, of weights 10^-span ... 10^span of the cord's; every third has a bob.
+void check_random_cords(int count, unsigned seed) {
+    std::mt19937 dice(seed);
+    const auto uniform = [&](double low, double high) { return std::uniform_real_distribution<>(low, high)(dice); };
+    double worst = 0;
+    for (int i = 0; i < count; ++i) {
+        const double length = std::pow(10, uniform(-1, 1)), span = 2 * (i % 5);
+        revchain::CordOptions options{.weight = 1.0, .tip_weight = std::pow(10, uniform(-span, span))};
+        for (int k = i % 4 == 3 ? 8 : i % 4; k > 0; --k)
+            options.weights[uniform(0.01, 0.99) * length] = std::pow(10, uniform(-span, span));
+        if (i % 3 == 0 || options.weights.empty()) {
+            options.tip_centroid = length * std::pow(10, uniform(-3, 0));
+            options.tip_radius_of_gyration = length * std::pow(10, uniform(-3, 0));
+        }
+        const Cord cord(length, options);
+        const auto modes = revchain::modes(cord, {.count = 6});
+        const QuadCord exact(cord);
+        for (Index j = 0; j < modes.size(); ++j) {
+            CAPTURE(seed, i, j, modes.conical_height[j], modes.error_bound[j]);
+            const double error = exact.error(modes.conical_height[j]);
+            REQUIRE(error <= modes.error_bound[j]);
+            worst = std::max(worst, error / modes.error_bound[j]);
+        }
+        for (const Index j : {0, 5}) {
+            const double height = modes.conical_height[j], off = 2 * modes.error_bound[j];
+            if (length / height > 9e5) continue;  // no counts beyond 1e6
+            REQUIRE(revchain::count_modes(cord, {.conical_height = height * (1 - off)}) == j + 1);
+            REQUIRE(revchain::count_modes(cord, {.conical_height = height * (1 + off)}) == j);
+        }
+    }
+    CHECK(worst > 0.2);  // the bounds are of use
+}
+
 }  // namespace
+
+TEST_CASE("cord: random cords with particles and bobs in quadruple precision") { check_random_cords(500, 1); }
+
+TEST_CASE("cord: 10,000 random cords with particles and bobs in quadruple precision", "[.slow]") {
+    check_random_cords(10'000, 2);
+}
 
 TEST_CASE("cord: particles stand between the pieces of a density") {
     const auto density = std::make_shared<LineDensity>([](double s) { return 1 + s * s; }, 2.0);

@@ -46,7 +46,7 @@ def random_cord(rng, bob=None):
 @pytest.mark.parametrize("bob", [False, True])
 def test_random_cords_against_bessel_functions(bob):
     rng = np.random.default_rng(11 + bob)
-    for _ in range(by_tier(8, 400)):
+    for _ in range(by_tier(6, 60)):
         cord = random_cord(rng, bob)
         modes = rc.modes(cord, 5)
         for j, height in enumerate(modes.conical_height):
@@ -59,7 +59,7 @@ def test_random_cords_against_bessel_functions(bob):
 def test_no_mode_is_left_out():
     """Sign changes of the offset at the support, on a fine grid of speeds."""
     rng = np.random.default_rng(3)
-    for k in range(by_tier(4, 40)):
+    for k in range(by_tier(2, 8)):
         cord = random_cord(rng, k % 2 == 1)
         heights = rc.modes(cord, 4).conical_height
         pieces = Pieces(cord)
@@ -106,7 +106,7 @@ def test_a_clasp_of_finite_width_and_one_of_none():
 def test_shapes_along_the_cord():
     """Offsets, slopes on both sides of a mass, nodes, and vertical points, against the Bessel functions."""
     rng = np.random.default_rng(8)
-    for k in range(by_tier(4, 30)):
+    for k in range(by_tier(2, 8)):
         cord = random_cord(rng, k % 2 == 1)
         modes = rc.modes(cord, 4)
         for j in range(4):
@@ -170,8 +170,8 @@ def test_shapes_and_stability_are_limits_of_chains(speed):
         assert shape.offset[0] == pytest.approx(offset, rel=2e-6)
         assert place.tension[-1] == pytest.approx(tension, rel=2e-6)
         assert shape.residual < 1e-13
-        slow = np.sort(np.abs(np.asarray(shape.stability().exponent).imag))
-        few = np.sort(np.abs(np.asarray(links.stability().exponent).imag))
+        slow = np.sort(np.abs(shape.stability().exponents.imag))
+        few = np.sort(np.abs(links.stability().exponents.imag))
         assert slow[:6] == pytest.approx(few[:6], abs=2e-2 * speed)
 
 
@@ -226,7 +226,7 @@ def test_what_a_cord_keeps():
         ({"masses": {2.0: 1.0}}, r"places of masses must lie between .* got 2$"),
         ({"masses": {1.0: -1.0}}, r"masses\[1\] must be finite and not negative, got -1"),
         ({"masses": [0.5, 1.0]}, r"masses must map distances from the free end to masses"),
-        ({"weights": {1.0: 1.0}}, r"give weights? for a cord given by weight|give either"),
+        ({"weights": {1.0: 1.0}}, r"give masses for a cord given by mass"),
         ({"breaks": [1.0]}, r"breaks are for a density that is a function; leave them out, got 0"),
         ({"density": lambda s: 1.0, "breaks": [0.0]}, r"breaks must be positive"),
         ({"density": lambda s: 1.0, "breaks": [3.0]}, r"breaks must lie between .*got 3"),

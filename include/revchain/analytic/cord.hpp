@@ -170,16 +170,15 @@ CordModes modes_of(const StraightCord& straight, const CordModesOptions& options
             finite::critical_heights(chain, range.first - 1 + range.count).tail(range.count);
         // The first half wave of a mode is longer than its conical height, so the weight must be
         // accurate from that height up. If the density has no error, heights are within 2e-15.
-        for (Index j = 0; chain.density != nullptr && j < range.count; ++j) {
-            const double from = std::min(result.conical_height[j], chain.length);
-            const double density =
-                2 * chain.density->error(from) + chain.density->rounding_at_jumps(from);
-            result.error_bound[j] = std::max(method.error_bound, 2e-15 + density);
-            if (straight.cord.weights().empty()) continue;
-            const Index mode = range.first + j;
-            result.error_bound[j] +=
-                2 * epsilon<double>() *
-                finite::condition_of_places(chain, result.conical_height[j], mode);
+        for (Index j = 0; j < range.count; ++j) {
+            const double height = result.conical_height[j], from = std::min(height, chain.length);
+            double& bound = result.error_bound[j];
+            if (chain.density != nullptr)
+                bound = std::max(bound, 2e-15 + 2 * chain.density->error(from) +
+                                            chain.density->rounding_at_jumps(from));
+            if (straight.cord.is_plain()) continue;
+            bound +=
+                3 * epsilon<double>() * finite::condition_of_places(chain, height, range.first + j);
         }
     }
     for (Index j = 0; method.is_closed && j < range.count; ++j) {

@@ -89,6 +89,8 @@ class Cord {
                                   "cut it into links, the lowest of them the bob; tip centroid",
                                   tip_centroid_);
     }
+    /// Whether there is neither a bob nor a particle on the cord.
+    bool is_plain() const { return weights_.empty() && !has_bob(); }
     /// Weights of the particles on the cord, by their distances from the free end.
     const std::map<double, double>& weights() const { return weights_; }
     /// Mean weight per length, with the particles.

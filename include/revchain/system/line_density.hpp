@@ -137,6 +137,16 @@ class LineDensity {
                : nudged(s) >= length_ ? pieces_.back().particles_below
                                       : piece_at(s).particles_below;
     }
+    /// Weight of the particles above one place, at or below another: without the rounding of those
+    /// below both.
+    double particles_between(double from, double to) const {
+        double sum = 0;
+        if (nudged(from) >= length_) return sum;
+        for (const Piece* piece = &piece_at(from);
+             piece <= &pieces_.back() && end(*piece) <= nudged(to); ++piece)
+            sum += piece->particle;
+        return sum;
+    }
     /// Weight of the chain below s without its particles.
     double cord_below(double s) const {
         if (nudged(s) >= length_)

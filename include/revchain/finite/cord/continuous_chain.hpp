@@ -77,14 +77,15 @@ struct ContinuousChain {
           tip(cord.tip_length()),
           density(cord.line_density()),
           line_weight(cord.line_weight()),
-          bob{cord.tip_centroid(), lever_of(cord)},
+          bob(bob_of(cord)),
           is_counted(cord.is_power() && !cord.has_bob() &&
                      (cord.tip_weight() == 0 || *cord.exponent() <= 0)) {}
 
    private:
-    static double lever_of(const Cord& cord) {
-        const double k = cord.tip_radius_of_gyration();
-        return cord.has_bob() ? cord.tip_centroid() + k * k / cord.tip_centroid() : 0.0;
+    static PathKind::Bob bob_of(const Cord& cord) {
+        if (!cord.has_bob()) return {};
+        const double k = cord.tip_radius_of_gyration(), beyond = k * k / cord.tip_centroid();
+        return {cord.tip_centroid() + beyond, beyond};
     }
 };
 
@@ -98,7 +99,7 @@ PathKind kind_of(const ContinuousChain& chain, double height, double bend) {
             chain.density.get(),
             bend,
             chain.line_weight,
-            {chain.bob.centroid / height, chain.bob.lever / height}};
+            {chain.bob.lever / height, chain.bob.beyond / height}};
 }
 
 REVCHAIN_LAZY

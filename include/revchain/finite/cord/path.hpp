@@ -71,9 +71,8 @@ class Path {
             steps_.push_back({state, duration});
             const bool all_crossed = static_cast<int>(crossings_.size()) >= options.crossings;
             visit(series, all_crossed ? crossings_.back().time : duration);
-            const double particle =
-                             kind.particles_below(next.state.arc) - kind.particles_below(state.arc),
-                         below = kind.weight_below(next.state.arc) - particle,
+            const double particle = kind.particles_between(state.arc, next.state.arc),
+                         below = kind.weight_below(next.state.arc, state.arc),
                          tension = kind.tension(next.state.pull, below);
             largest_tension_ = std::max(largest_tension_, tension);
             discrepancy_ = std::max(discrepancy_, std::abs(next.tension - tension));
@@ -99,8 +98,10 @@ class Path {
 
     /// Returns the arc at which a path with a density begins. Below it `near_tip` applies.
     static double first_arc(const PathKind& kind) {
-        const double little = 0x1p-28 * std::min(1.0, kind.density->length() / kind.unit);
-        return std::max(little, kind.density->end_of_power() / kind.unit);
+        const double power = kind.density->end_of_power() / kind.unit;
+        // a bob need not be in line with the cord, which then bends at once
+        if (kind.bob.lever > 0) return power;
+        return std::max(power, 0x1p-28 * std::min(1.0, kind.density->length() / kind.unit));
     }
     /// Returns the state near the free end for a density like s^p, with errors of order s^2.
     static PathState near_tip(const PathKind& kind, double tip_offset, double s) {

@@ -27,24 +27,32 @@ struct PathKind {
     double bend = 1;                       ///< 0: small amplitude, T = V
     double line_weight = 1;                ///< mean weight per length, the unit of tensions
     struct Bob {
-        double centroid = 0;  ///< of the body at the free end, below that end
-        double lever = 0;     ///< (centroid^2 + k^2)/centroid: the length of its equal pendulum
-    } bob{};                  ///< zero for a particle
+        double lever = 0;   ///< centroid + k^2/centroid, of the body at the free end: the length of
+                            ///< its equal pendulum
+        double beyond = 0;  ///< k^2/centroid
+    } bob{};                ///< zero for a particle
 
     double weight_below(double arc) const {
         return tip +
                (density == nullptr ? arc : density->weight_below(arc * unit) / (unit * per_length));
     }
-    /// The weight of the particles at or below a place.
-    double particles_below(double arc) const {
-        return density == nullptr ? 0.0
-                                  : density->particles_below(arc * unit) / (unit * per_length);
+    /// The weight below a place, without the particles above another one.
+    double weight_below(double arc, double with_particles_below) const {
+        if (density == nullptr) return tip + arc;
+        return tip + (density->cord_below(arc * unit) +
+                      density->particles_below(with_particles_below * unit)) /
+                         (unit * per_length);
+    }
+    /// The weight of the particles above one place, at or below another.
+    double particles_between(double from, double to) const {
+        return density == nullptr
+                   ? 0.0
+                   : density->particles_between(from * unit, to * unit) / (unit * per_length);
     }
     /// Returns the start of a path. With a bob, which small motions alone may have, `tip_offset` is
     /// its inclination, and moments about its pin give the offset.
     PathState at_tip(double tip_offset) const {
-        const double offset = (1 - bob.lever) * tip_offset;
-        return {0, offset, -tip * (offset + bob.centroid * tip_offset), 0};
+        return {0, (1 - bob.lever) * tip_offset, -tip * (1 - bob.beyond) * tip_offset, 0};
     }
     double density_at(double arc) const {
         return density == nullptr ? 1.0 : density->about(arc * unit)[0] / per_length;

@@ -44,9 +44,7 @@ CordProfile profile_of(const CordShape& shape) {
                           place.tension / (shape.conical_height * shape.kind.line_weight)};
     };
     profile.density = [&shape](double arc) { return shape.kind.density_at(arc); };
-    profile.weight_below = [&shape](double arc) {
-        return shape.kind.weight_below(arc) - shape.kind.particles_below(arc);
-    };
+    profile.weight_below = [&shape](double arc) { return shape.kind.weight_below(arc, 0); };
     return profile;
 }
 
