@@ -93,7 +93,9 @@ struct CordModesOptions {
 /// they are zeros of a cross product of Bessel functions, to 2 ulp. All others use power series, to
 /// 4e-15 (tests/cpp/cord.cpp). `error_bound` has these figures; it was measured, for exponents from
 /// -0.99 to 100. For a density function that jumps or is less accurate it is 2e-15 plus twice
-/// `LineDensity::error` plus `rounding_at_jumps`. Offsets and slopes are within 1e-15 times the
+/// `LineDensity::error` plus `rounding_at_jumps`. With particles or a bob it is larger by 3 ulp times
+/// the relative change of the height by that of a particle's place, the largest: 1e-14 as a rule
+/// (10,000 cords with weights 1e16 apart, tests/cpp/cord_particles.cpp). Offsets and slopes are within 1e-15 times the
 /// mode number of the largest one, with series within 1e-14. Cost: a closed form takes 0.01 to 15
 /// microseconds a mode; power series take 1 ms for each mode up to the last one requested. Throws
 /// InvalidArgument as `modes` of a chain, for `all_modes` (there are infinitely many), and with

@@ -27,7 +27,8 @@ DAMPED = [path for path in SCENES if getattr(LOADED[path].system(), "is_damped",
 RIGS = [path for path in SCENES if LOADED[path].is_rigged and path not in DAMPED]
 HELD = [path for path in SCENES if LOADED[path].is_held]
 GOVERNORS = [path for path in SCENES if isinstance(LOADED[path].system(), rc.SleeveGovernor)]
-CHAINS = [path for path in SCENES if path not in RIGS + HELD + DAMPED + GOVERNORS]
+CORDS = [path for path in SCENES if "cord" in LOADED[path].to_dict() and path not in HELD]
+CHAINS = [path for path in SCENES if path not in RIGS + HELD + DAMPED + GOVERNORS + CORDS]
 ULP = 2.0**-52
 # The expected values belong to the decimals of the file and the answers to their roundings. Those cost up
 # to some ulp in principle and 0.9 ulp measured (bell_and_clapper), inside the bound of 2 ulp.
@@ -71,6 +72,20 @@ def test_chains(path, exact_heights, worst_in_bounds):
         np.testing.assert_allclose(nodes, [float(node) for node in mode["nodes"]], rtol=0, atol=atol)
     if result.system.size <= 20:
         assert worst_in_bounds(result, exact_heights(result.system)) <= 1
+
+
+@pytest.mark.parametrize("path", CORDS, ids=lambda path: path.stem)
+def test_cords(path):
+    """Against Bessel functions between the point masses; the file's decimals are rounded when stored."""
+    _, result, expected = solved(path)
+    assert result.status == "success" and len(result) == len(expected["modes"])
+    assert result.error_bound.max() <= 1e-13
+    for k, mode in enumerate(expected["modes"]):
+        with mp.workdps(40):
+            assert abs(mp.mpf(float(result.conical_height[k])) / mp.mpf(mode["conical_height"]) - 1) <= result.error_bound[k] + 4 * ULP
+            assert abs(mp.mpf(float(result.angular_speed[k])) / mp.mpf(mode["angular_speed"]) - 1) <= result.error_bound[k] + 4 * ULP
+        nodes = [float(node) for node in mode["nodes"]]
+        np.testing.assert_allclose(result.nodes[k], nodes, rtol=0, atol=1e-13 * result.system.length)
 
 
 @pytest.fixture(scope="module")
