@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "revchain/conical_pendulum.hpp"
+#include "revchain/numeric/compiled.hpp"
+#include "revchain/rig.hpp"
+
+/// The steady shape of a chain that an arm carries round through still air.
+///
+///     const revchain::Chain<double> chain({revchain::plummet(9.81, 2.0)});  // N, m
+///     const revchain::Rig rig(chain, {.support = revchain::carried_round(1.5)});
+///     const revchain::Drag air{.coefficient = {0.5}, .area = {0.05}};  // a ball of 1 kg
+///     const auto shape = revchain::drag_shape(rig, air, {.angular_speed = 2.0, .gravity = 9.81});
+///     shape.azimuth[0];  // -0.2407 rad: the thread trails behind the plane of the arm
+///     shape.torque;      // 0.7706 N m to keep the arm turning
+namespace revchain::inline REVCHAIN_BUILD {
+
+/// Quadratic air drag on links. Each list has one number for each link, lowest first, or one for
+/// all, or is empty (0). With weights in newtons, lengths are in m and the density in kg/m^3.
+struct Drag {
+    std::vector<double> coefficient{};  ///< C of the link as a cylinder, and of the body at it
+    /// d: the link is a cylinder. Drag per length is density/2 C d |v| v, with v the part of its
+    /// velocity across the link.
+    std::vector<double> diameter{};
+    /// A: a body at the link's centre of gravity. Its drag is density/2 C A |v| v, v its velocity.
+    std::vector<double> area{};
+    std::vector<double> body_coefficient{};  ///< C of the bodies; empty: `coefficient`
+    double density = 1.225;                  ///< of the air
+};
+
+struct DragShapeOptions {
+    double angular_speed = 0;           ///< rad/s, negative: backward
+    std::optional<int> half_waves{};    ///< of the shape without drag; absent: that from rest
+    double gravity = conical_pendulum::standard_gravity;
+};
+
+enum class DragStatus {
+    success,
+    fold,     ///< the shape has no continuation to the full drag: it ends at the factor reached
+    stalled,  ///< the continuation did not converge
+};
+
+inline std::string_view to_string(DragStatus status) {
+    return status == DragStatus::success ? "success"
+           : status == DragStatus::fold  ? "fold"
+                                         : "stalled";
+}
+
+/// A rigid figure that turns about the vertical through air at rest. Coordinates are in the turning
+/// frame: x outward through the support, y in the sense of the motion, z up from the support.
+struct DragShape {
+    Table<double> position;      ///< (N + 1, 3) of the pins, free end first, support last
+    Vector<double> inclination;  ///< (N) of each link to the downward vertical, 0 to pi, rad
+    /// (N) direction in which each link leads away from its upper pin, from outward (x) towards the
+    /// sense of motion, in (-pi, pi], rad; negative: the link trails
+    Vector<double> azimuth;
+    Vector<double> tension;     ///< (N) magnitude of the reaction at each link's upper pin
+    double torque = 0;          ///< about the axis, in the sense of motion; weight times length
+    double power = 0;           ///< torque times speed
+    double factor = 0;          ///< share of the drag of this shape: 1 if `status` is success
+    double residual = 0;        ///< largest unbalanced moment over (weight times length of the chain)
+    double error_estimate = 0;  ///< of the direction of each link, rad
+    DragStatus status = DragStatus::stalled;
+    int steps = 0;  ///< of the continuation
+};
+
+/// Returns the steady shape of a rig whose support is carried round, with drag of still air on its
+/// links. The joints are ball joints: they pass on no torque. The moment of the drag about the axis
+/// is balanced by the force on the support, so that the support must be off the axis.
+///
+/// Method: the shape without drag (`steady_shape` on the branch from rest, or of `steady_shapes`
+/// the one with `half_waves` whose free end is farthest out) is followed along the arc while a
+/// factor of the drag grows from 0 to 1. Unknowns are the directions of the links. Newton's method
+/// has the exact derivative, eliminated link by link in 2 x 2 blocks, O(N); the last steps balance
+/// the forces in two words. Drag is integrated along each link by Gauss's rule on parts that
+/// shrink towards the slowest point. It is not proved that there is no other shape.
+/// `error_estimate` is the change by a rule of more points, and rounding.
+/// Accuracy measured (tests/cpp/drag.cpp): directions within 1e-14 rad of 40 digits.
+/// A support on a spring yields alike in every horizontal direction. Dashpots at pins have no part
+/// in a rigid figure. Drag of the arm is not included.
+/// Source of the drag across a cylinder: Hoerner, Fluid-Dynamic Drag (1965), 3-11 (cross-flow
+/// principle); of the elimination: that of finite::balance.
+/// Cost: 10 to 60 steps of the continuation, O(N) each.
+/// Throws InvalidArgument for a speed of 0, a support on the axis, a fluid that turns, springs at
+/// pins, a dashpot at the support, a trolley that rolls freely, lists of another length, negative
+/// numbers, and if there is no shape to start from.
+REVCHAIN_DECLARE
+[[nodiscard]] DragShape drag_shape(const Rig& rig, const Drag& drag,
+                                   const DragShapeOptions& options);
+
+}  // namespace revchain
+
+#if !defined(REVCHAIN_COMPILED)
+#include "revchain/questions/drag.hpp"
+#endif
