@@ -66,6 +66,7 @@ PUBLIC = {
     "steady_shapes.hpp": "finite/shapes",
     "stability.hpp": "finite/stability",
     "stability_windows.hpp": "finite/stability",
+    "drag.hpp": "questions",
     "branches.hpp": "finite/branch",
     "held.hpp": "questions",
     "cord.hpp": "analytic",

@@ -33,14 +33,16 @@ struct Drag {
 };
 
 struct DragShapeOptions {
-    double angular_speed = 0;           ///< rad/s, negative: backward
-    std::optional<int> half_waves{};    ///< of the shape without drag; absent: that from rest
+    double angular_speed = 0;  ///< rad/s, negative: backward
+    /// Of the shape without drag that is followed while the drag grows. Absent: the shape that
+    /// begins at rest, followed while the speed grows in the air.
+    std::optional<int> half_waves{};
     double gravity = conical_pendulum::standard_gravity;
 };
 
 enum class DragStatus {
     success,
-    fold,     ///< the shape has no continuation to the full drag: it ends at the factor reached
+    fold,     ///< the way there turns back at the factor reached, and does not lead to the end
     stalled,  ///< the continuation did not converge
 };
 
@@ -61,10 +63,13 @@ struct DragShape {
     Vector<double> tension;     ///< (N) magnitude of the reaction at each link's upper pin
     double torque = 0;          ///< about the axis, in the sense of motion; weight times length
     double power = 0;           ///< torque times speed
-    double factor = 0;          ///< share of the drag of this shape: 1 if `status` is success
+    /// 1 if `status` is success. Else the shape is that with this share of the drag; from rest, with
+    /// this share of the squared speed.
+    double factor = 0;
     double residual = 0;        ///< largest unbalanced moment over (weight times length of the chain)
     double error_estimate = 0;  ///< of the direction of each link, rad
     DragStatus status = DragStatus::stalled;
+    int folds = 0;  ///< where the way turned back and forth; a shape that follows it would jump
     int steps = 0;  ///< of the continuation
 };
 
@@ -72,9 +77,9 @@ struct DragShape {
 /// links. The joints are ball joints: they pass on no torque. The moment of the drag about the axis
 /// is balanced by the force on the support, so that the support must be off the axis.
 ///
-/// Method: the shape without drag (`steady_shape` on the branch from rest, or of `steady_shapes`
-/// the one with `half_waves` whose free end is farthest out) is followed along the arc while a
-/// factor of the drag grows from 0 to 1. Unknowns are the directions of the links. Newton's method
+/// Method: continuation along the arc. From rest, the square of the speed grows from 0, and the drag
+/// with it. With `half_waves`, the shape of `steady_shapes` whose free end is farthest out is
+/// followed while a factor of the drag grows from 0 to 1. Unknowns are the directions of the links. Newton's method
 /// has the exact derivative, eliminated link by link in 2 x 2 blocks, O(N); the last steps balance
 /// the forces in two words. Drag is integrated along each link by Gauss's rule on parts that
 /// shrink towards the slowest point. It is not proved that there is no other shape.

@@ -1,195 +1,20 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <Eigen/LU>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
-#include "revchain/branches.hpp"
 #include "revchain/drag.hpp"
-#include "revchain/finite/balance/air_drag.hpp"
-#include "revchain/finite/shapes/rigged_links.hpp"
+#include "revchain/finite/shapes/space_balance.hpp"
 #include "revchain/numeric/arc_step.hpp"
 #include "revchain/steady_shapes.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
 
 namespace finite {
-
-using Fine3 = Space<Fine>;
-using Matrix2 = Eigen::Matrix<double, 2, 2>;
-
-/// A figure in space: directions of the links, each from its upper pin to its lower one, and the
-/// place of the support, which moves if it yields.
-struct Figure {
-    std::vector<Fine3> direction;
-    Fine3 support{};
-};
-
-/// A change of a figure, or its derivative to the factor of the drag.
-struct FigureChange {
-    std::vector<Vector3> direction;  ///< each across its link
-    Vector3 support = Vector3::Zero();
-
-    /// Mean product over the links and the support.
-    friend double dot(const FigureChange& x, const FigureChange& y) {
-        double sum = x.support.dot(y.support);
-        for (std::size_t m = 0; m < x.direction.size(); ++m)
-            sum += x.direction[m].dot(y.direction[m]);
-        return sum / static_cast<double>(x.direction.size() + 1);
-    }
-    double largest() const {
-        double most = support.norm();
-        for (const Vector3& each : direction) most = std::max(most, each.norm());
-        return most;
-    }
-};
-
-/// Returns a figure moved by `share` of a change, with directions of length 1.
-REVCHAIN_LAZY
-Figure moved(Figure figure, const FigureChange& change, double share = 1) {
-    const auto fine = [](const Vector3& v) { return Fine3{Fine(v[0]), Fine(v[1]), Fine(v[2])}; };
-    for (std::size_t m = 0; m < figure.direction.size(); ++m) {
-        Fine3& u = figure.direction[m];
-        u = u + Fine(share) * fine(change.direction[m]);
-        u = (Fine(1.0) / sqrt(dot(u, u))) * u;
-    }
-    figure.support = figure.support + Fine(share) * fine(change.support);
-    return figure;
-}
-
-/// The balance of a rig's links in space, with drag. Per link, with T the pull from below without
-/// the weights, P the places of the pins, u the direction and lambda the height,
-///     G = T_below + (moment P_below - length cross u)/lambda + lever - (tension + n spin) z
-/// must lie along u; T = T_below + (moment P_below + rest P)/lambda + force. Here offsets are
-/// horizontal, and force and lever are those of the drag. In a plane without drag this is the
-/// balance of `finite::Link`.
-class SpaceBalance {
-   public:
-    SpaceBalance(RiggedLinks links, const Fine& height, std::vector<LinkDrag> drag)
-        : links_(std::move(links)), height_(height), drag_(std::move(drag)) {}
-
-    const RiggedLinks& links() const { return links_; }
-    std::size_t size() const { return drag_.size(); }
-
-    /// Returns the places of the pins, free end first.
-    std::vector<Fine3> pins(const Figure& figure) const {
-        std::vector<Fine3> place(size() + 1);
-        place[size()] = figure.support;
-        for (std::size_t m = size(); m-- > 0;)
-            place[m] = place[m + 1] + links_.links[m].length * figure.direction[m];
-        return place;
-    }
-
-    struct Solved {
-        FigureChange correction;   ///< Newton's step at this factor
-        FigureChange slope;        ///< derivative of the figure to the factor
-        std::vector<Fine3> pull;   ///< T at each upper pin
-        double residual = 0;       ///< largest unbalanced moment over (weight times length)
-    };
-
-    /// Balances forces and solves for Newton's step. Elimination goes from the free end up: the
-    /// change of T is `stiffness` times that of P, plus `load`, whose columns belong to the
-    /// correction and to the slope.
-    Solved solve(const Figure& figure, double factor, const GaussRule& rule) const {
-        struct Row {
-            Matrix2 pin, load;
-            Matrix32 frame;
-        };
-        const std::size_t n = size();
-        const std::vector<Fine3> place = pins(figure);
-        std::vector<Row> rows(n);
-        Solved result;
-        Matrix32 stiffness = Matrix32::Zero(), load = Matrix32::Zero(), flat = Matrix32::Zero();
-        flat(0, 0) = flat(1, 1) = 1;
-        Fine3 pull;
-        double reach = 0;
-        for (std::size_t m = 0; m < n; ++m) {
-            const Link<Fine>& link = links_.links[m];
-            const Fine3 &u = figure.direction[m], &upper = place[m + 1];
-            const auto level = [&](const Fine3& p) {
-                return Fine3{p.x / height_, p.y / height_, Fine(0.0)};
-            };
-            DragSlopes slopes;
-            const DragForces<Fine> air =
-                drag_on_link(drag_[m], rule, link.length, upper, u, &slopes);
-            const Fine3 carried = link.moment * level(place[m]);
-            const Fine3 hung{Fine(0.0), Fine(0.0), link.pull};
-            const Fine3 on_link = pull + carried - link.length * (link.cross * level(u)) +
-                                  Fine(factor) * air.lever - hung;
-            const Fine along = dot(on_link, u);
-            const Vector3 off = as_vector(on_link - along * u);
-            reach += as_double(link.length);
-            result.residual = std::max(result.residual, off.norm() * as_double(link.length));
-
-            const double lambda = as_double(height_), a = as_double(link.length);
-            const double moment = as_double(link.moment) / lambda;
-            Row& row = rows[m];
-            row.frame = across(as_vector(u));
-            const Matrix2 level_frame = row.frame.topRows<2>();
-            const Matrix32 below = stiffness + moment * flat;
-            const Matrix32 turned = a * below * level_frame;
-            const Matrix32 of_turn = turned + factor * slopes.lever_direction * row.frame -
-                                     a * as_double(link.cross) / lambda * flat * level_frame;
-            Matrix2 pivot = row.frame.transpose() * of_turn;
-            pivot.diagonal().array() -= as_double(along);
-            Matrix32 given = load;
-            given.col(0) += off, given.col(1) += as_vector(air.lever);
-            const Matrix2 inverse = pivot.inverse();
-            row.load = -inverse * (row.frame.transpose() * given);
-            row.pin =
-                -inverse * (row.frame.transpose() * (below + factor * slopes.lever_pin));
-            const Matrix32 force_of_turn =
-                turned + factor * slopes.force_direction * row.frame;
-            load.col(1) += as_vector(air.force);
-            load += force_of_turn * row.load;
-            stiffness = below + as_double(link.rest) / lambda * flat + factor * slopes.force_pin +
-                        force_of_turn * row.pin;
-            pull = pull + carried + link.rest * level(upper) + Fine(factor) * air.force;
-            result.pull.push_back(pull);
-        }
-        Matrix2 change = Matrix2::Zero();  // of the pin above, for each column
-        if (links_.support.yields()) {
-            const SupportEnd<Fine>& end = links_.support;
-            const Fine held = end.carriage - end.stiffness;
-            const Fine x = pull.x + (held * place[n].x + end.stiffness * end.radius) / height_,
-                       y = pull.y + held * place[n].y / height_;
-            Matrix2 top = stiffness.topRows<2>(), given = load.topRows<2>();
-            top.diagonal().array() += as_double(held / height_);
-            given.col(0) += Eigen::Matrix<double, 2, 1>(as_double(x), as_double(y));
-            change = -top.inverse() * given;
-            result.residual =
-                std::max(result.residual, std::hypot(as_double(x), as_double(y)) * reach);
-        }
-        result.residual /= links_.total_weight * reach;
-        result.correction.support.head<2>() = change.col(0);
-        result.slope.support.head<2>() = change.col(1);
-        result.correction.direction.resize(n), result.slope.direction.resize(n);
-        for (std::size_t m = n; m-- > 0;) {
-            const Matrix32 turn = rows[m].frame * (rows[m].pin * change + rows[m].load);
-            result.correction.direction[m] = turn.col(0), result.slope.direction[m] = turn.col(1);
-            change += as_double(links_.links[m].length) * turn.topRows<2>();
-        }
-        return result;
-    }
-
-   private:
-    /// Returns two unit vectors across a direction and each other, as columns.
-    static Matrix32 across(const Vector3& u) {
-        Eigen::Index least = 0;
-        u.cwiseAbs().minCoeff(&least);
-        const Vector3 x = (Vector3::Unit(least) - u[least] * u).normalized();
-        Matrix32 frame;
-        frame.col(0) = x;
-        frame.col(1) << u[1] * x[2] - u[2] * x[1], u[2] * x[0] - u[0] * x[2],
-            u[0] * x[1] - u[1] * x[0];
-        return frame;
-    }
-
-    RiggedLinks links_;
-    Fine height_;
-    std::vector<LinkDrag> drag_;
-};
 
 /// A point of the curve of figures over the factor of the drag, and the curve's direction there.
 struct DragPoint {
@@ -199,33 +24,39 @@ struct DragPoint {
     double factor_tangent = 1;
 };
 
-/// Follows the figure from no drag to the full drag.
+/// Follows the figure on the way to the full drag.
 class DragWalk {
    public:
     DragWalk(const SpaceBalance& balance, const GaussRule& rule)
         : balance_(&balance), rule_(&rule) {}
 
+    /// Moves the point to the end of the way. Folds are passed; where the way then leads back to
+    /// its beginning, the point ends at the first one.
     DragStatus run(DragPoint& at) {
         if (!corrected(at, nullptr, 1e300) || !directed(at, nullptr)) return DragStatus::stalled;
         double step = 0.05;
-        for (steps = 0; steps < most_steps && at.factor < 1; ++steps) {
-            bool fold = false;
+        std::optional<DragPoint> first_fold;
+        while (at.factor < 1) {
+            const double last_tangent = at.factor_tangent;
             const bool done = detail::arc_step(step, 1e300, 0.5, [&](double length) {
-                return attempt(at, length, fold);
+                return attempt(at, length);
             });
-            if (fold) return DragStatus::fold;
-            if (!done) return DragStatus::stalled;
+            if (at.factor_tangent * last_tangent < 0 && folds++ == 0) first_fold = at;
+            if (done && at.factor > 0 && ++steps < most_steps) continue;
+            if (!first_fold) return DragStatus::stalled;
+            at = *std::move(first_fold);
+            return DragStatus::fold;
         }
-        return at.factor == 1 ? DragStatus::success : DragStatus::stalled;
+        return DragStatus::success;
     }
 
-    int steps = 0;
+    int steps = 0, folds = 0;
 
    private:
-    static constexpr int most_steps = 10'000;
+    static constexpr int most_steps = 3000;
     static constexpr double closest_to_fold = 1e-4;  ///< step; the factor is flat there
 
-    std::optional<double> attempt(DragPoint& at, double length, bool& fold) const {
+    std::optional<double> attempt(DragPoint& at, double length) const {
         const double left = 1 - at.factor;
         const bool last = length * at.factor_tangent >= left;
         if (last) length = left / at.factor_tangent;
@@ -234,11 +65,10 @@ class DragWalk {
         next.factor = last ? 1 : at.factor + length * at.factor_tangent;
         const std::optional<double> first =
             corrected(next, last ? nullptr : &at, 0.2 * std::min(length, 0.5));
-        if (!first || next.factor < 0 || next.factor > 1 || !directed(next, &at)) return {};
-        if (next.factor_tangent <= 0) {
-            fold = length < closest_to_fold;
-            if (!fold) return {};
-        }
+        if (!first || next.factor > 1 || !directed(next, &at)) return {};
+        const bool turned = next.factor_tangent * at.factor_tangent < 0;
+        if (turned && length > closest_to_fold) return {};
+        if (!turned && !((next.factor - at.factor) * at.factor_tangent > 0)) return {};  // a jump
         at = std::move(next);
         const double curved = *first / std::max(length, 1e-300);
         return std::clamp(0.5 / std::sqrt(curved + 1e-2), 0.5, 3.0);
@@ -299,26 +129,36 @@ class DragWalk {
 
 namespace detail {
 
-/// Returns the steady shape without drag from which to start. `speed` may be negative.
+/// Returns the figure from which to start: a shape without drag, or the rig at rest.
 REVCHAIN_LAZY
-SteadyShape shape_without_drag(const Rig& rig, const DragShapeOptions& options) {
-    const double speed = options.angular_speed;
-    if (!options.half_waves)
-        return steady_shape(rig, RigOnBranchOptions{.angular_speed = std::abs(speed),
-                                                    .gravity = options.gravity,
-                                                    .direction = speed > 0 ? Rotation::forward
-                                                                           : Rotation::backward});
+finite::Figure figure_without_drag(const Rig& rig, const finite::RiggedLinks& links,
+                                   const DragShapeOptions& options) {
+    finite::Figure figure;
+    figure.support.x = links.support.radius;
+    const auto lead = [&](double inclination) {
+        figure.direction.push_back(
+            {std::sin(inclination), 0.0, -std::cos(inclination)});
+    };
+    if (!options.half_waves) {
+        for (Index m = 0; m < rig.size(); ++m)
+            figure.direction.push_back({0.0, 0.0, rig.stands(m) ? 1.0 : -1.0});
+        return figure;
+    }
     const SteadyShapes found =
-        steady_shapes(rig, RigShapesOptions{.angular_speed = speed, .gravity = options.gravity});
+        steady_shapes(rig, RigShapesOptions{.angular_speed = options.angular_speed,
+                                            .gravity = options.gravity});
     const SteadyShape* farthest = nullptr;
     for (const SteadyShape& shape : found.shapes)
         if (shape.half_waves == *options.half_waves &&
             (farthest == nullptr || shape.offset[0] > farthest->offset[0]))
             farthest = &shape;
     if (farthest == nullptr)
-        throw_invalid("drag_shape", "there is no shape with this number of half waves at this speed",
+        throw_invalid("drag_shape",
+                      "there is no shape without drag with this number of half waves at this speed",
                       *options.half_waves);
-    return *farthest;
+    for (const double inclination : farthest->inclination) lead(inclination);
+    figure.support.x = std::ldexp(farthest->offset[rig.size()], -links.units.length_exponent);
+    return figure;
 }
 
 /// Returns the drag coefficients of the links in the units of `links`, for the speed 1.
@@ -380,25 +220,19 @@ DragShape drag_shape(const Rig& rig, const Drag& drag, const DragShapeOptions& o
                               "or let the fluid be still; links",
                               rig.size());
     const std::vector<LinkDrag> of_links = detail::drag_of_links(rig, drag, speed);
-    const SteadyShape start = detail::shape_without_drag(rig, options);
     const Fine height = height_at_speed(std::abs(speed), options.gravity);
     RiggedLinks links = rigged_links(rig, height, Fine(speed));
     const ChainUnits units = links.units;
-    const SpaceBalance balance(std::move(links), ldexp(height, -units.length_exponent), of_links);
     const auto n = static_cast<std::size_t>(rig.size());
-
-    DragPoint at;
-    for (const double d : start.inclination)
-        at.figure.direction.push_back({Fine(std::sin(d)), Fine(0.0), Fine(-std::cos(d))});
-    const double outward = start.offset[rig.size()];
-    at.figure.support.x = Fine(std::ldexp(outward, -units.length_exponent));
-    at.figure = moved(std::move(at.figure),
-                      {std::vector<Vector3>(n, Vector3::Zero())});  // of length 1 in two words
+    DragPoint at{moved(detail::figure_without_drag(rig, links, options),
+                       {std::vector<Vector3>(n, Vector3::Zero())})};  // length 1 in two words
+    SpaceBalance balance(std::move(links), ldexp(height, -units.length_exponent), of_links);
+    if (!options.half_waves) balance.way = DragWay::growing_speed;
     const GaussRule rule = detail::gauss_rule(12), finer = detail::gauss_rule(16);
     DragWalk walk(balance, rule);
     DragShape shape;
     shape.status = walk.run(at);
-    shape.steps = walk.steps, shape.factor = at.factor;
+    shape.steps = walk.steps, shape.folds = walk.folds, shape.factor = at.factor;
     SpaceBalance::Solved found = balance.solve(at.figure, at.factor, rule);
     for (int round = 0; round < 4 && found.correction.largest() > 1e-20; ++round) {
         if (!(found.correction.largest() < 1e-6)) break;
