@@ -211,7 +211,7 @@ DragShape drag_shape(const Rig& rig, const Drag& drag, const DragShapeOptions& o
         detail::throw_invalid(place,
                               "with its support on the axis a chain with drag has no steady whirl: "
                               "ball joints pass on no torque to balance the drag; give the support "
-                              "a radius (carried_round), got",
+                              "a radius (carried_round); its radius",
                               rig.support().radius);
     detail::require_no_pins(place, "a shape with drag", rig, false);
     if (rig.fluid() == Fluid::turning)
