@@ -15,14 +15,14 @@ namespace revchain::inline REVCHAIN_BUILD::detail {
 struct DampedSystem {
     RigPencil rig;
     bool momentum;  ///< the motions of one sense are no conjugates of the other's
-    bool rests;     ///< a free trolley with a dashpot: it rests anywhere, and one exponent is 0
+    bool rests;     ///< a free trolley with a dashpot or drag: it rests anywhere, and one exponent is 0
     bool drifts;    ///< without it the momentum is constant, and its offset follows from the links'
     bool inertia = false;  ///< whether M is regular: there are twice as many exponents as freedoms
 
     DampedSystem(const Rig& of, double gravity)
         : rig(rig_pencil(of, gravity, {}, true)),
           momentum(of.has_momentum()),
-          rests(of.support().is_free() && of.support().damping.high > 0),
+          rests(of.support().is_free() && (of.support().damping.high > 0 || of.has_drag())),
           drifts(pencil::keeps_momentum(rig.pencil)) {}
 
     const pencil::DampedPencil& pencil() const { return rig.pencil; }

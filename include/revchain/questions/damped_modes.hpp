@@ -34,7 +34,7 @@ std::vector<double> damped_radii(const DampedSystem& of,
         rest.q.resize(static_cast<std::size_t>(of.pencil().size()));
         rest.off.resize(rest.q.size());
         const Wide<double> one(1.0);
-        rest.q.back() = pencil::ComplexWord(one / sqrt(of.pencil().joints.back().damping));
+        rest.q.back() = pencil::ComplexWord(one / sqrt(pencil::damping_together(of.pencil())));
     }
     std::vector<double> radius(roots.size(), std::numeric_limits<double>::infinity());
     if (!of.inertia || static_cast<Index>(all.size()) != of.exponents()) return radius;
