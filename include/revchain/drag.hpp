@@ -15,8 +15,8 @@
 ///     const revchain::Rig rig(chain, {.support = revchain::carried_round(1.5)});
 ///     const revchain::Drag air{.coefficient = {0.5}, .area = {0.05}};  // a ball of 1 kg
 ///     const auto shape = revchain::drag_shape(rig, air, {.angular_speed = 2.0, .gravity = 9.81});
-///     shape.azimuth[0];  // -0.2407 rad: the thread trails behind the plane of the arm
-///     shape.torque;      // 0.7706 N m to keep the arm turning
+///     shape.azimuth[0];  // -0.0954557 rad: the thread trails behind the plane of the arm
+///     shape.torque;      // 1.75025 N m to keep the arm turning
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// Quadratic air drag on links. Each list has one number for each link, lowest first, or one for

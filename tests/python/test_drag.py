@@ -442,3 +442,97 @@ def test_refusals():
         with pytest.raises(ValueError, match=words):
             rc.Drag(1.0, **wrong)
     assert rc.Drag(1.2, diameter="5 mm", area="40 cm^2", density="1.2 kg/m^3").diameter == 0.005
+
+
+# ---- linear drag: C of q'' M + q' C + K q = 0
+
+
+def straight_matrices(chain, drag, gravity=G):
+    """K, C, M of small motion in inclinations, in 50 digits: energies of points of Gauss's rule on each link."""
+    mp.mp.dps = 50
+    size, K, C, M = chain.size, *(mp.zeros(chain.size) for _ in range(3))
+    root = mp.sqrt(mp.mpf(3) / 5)
+    gauss = [((1 - root) / 2, mp.mpf(5) / 18), (mp.mpf(1) / 2, mp.mpf(4) / 9), ((1 + root) / 2, mp.mpf(5) / 18)]
+    lengths = [mp.mpf(float(x)) for x in chain.length]
+    for m in range(size):
+        weight, a = mp.mpf(float(chain.mass[m])), lengths[m]
+        h, k = mp.mpf(float(chain.centroid[m])), mp.mpf(float(chain.radius_of_gyration[m]))
+        for s, part in ((h - k, weight / 2), (h + k, weight / 2)):
+            row = mp.matrix([0] * m + [s] + lengths[m + 1 :])
+            M += part * row * row.T
+            for j in range(size):
+                K[j, j] += part * mp.mpf(gravity) * row[j]
+        for x, part in gauss:
+            row = mp.matrix([0] * m + [a * x] + lengths[m + 1 :])
+            C += mp.mpf(float(drag[m])) * part * row * row.T
+    return K, C, M
+
+
+@pytest.mark.parametrize("seed", range(by_tier(3, 20)))
+def test_linear_drag_in_fifty_digits(seed):
+    random = np.random.default_rng(seed)
+    size = int(random.integers(1, 7))
+    length = random.uniform(0.2, 2, size)
+    chain = rc.Chain(mass=random.uniform(0.1, 5, size), length=length, centroid=length * random.uniform(0.1, 1.3, size),
+                     radius_of_gyration=length * random.uniform(0.1, 0.8, size))
+    drag = random.uniform(0, 1, size) * 10.0 ** random.uniform(-2, 1)
+    found = rc.modes(rc.Rig(chain, drag=drag))
+    K, C, M = straight_matrices(chain, drag)
+    inverse = M**-1
+    form = mp.zeros(2 * size)
+    for j in range(size):
+        form[j, size + j] = 1
+    form[size:, :size], form[size:, size:] = -(inverse * K), -(inverse * C)
+    exact = mp.eig(form, left=False, right=False)
+    for s, bound in zip(found.exponent, found.error_bound, strict=True):
+        near = min(abs(mp.mpc(complex(s)) - x) for x in exact)
+        assert near <= mp.mpf(float(bound)) * abs(mp.mpc(complex(s))) and bound < 1e-15
+
+
+def test_linear_drag_of_one_rod():
+    """s = -c/(2 m) + i sqrt(3 g/(2 l) - (c/(2 m))^2); its amplitude and decay in response and swing."""
+    mass, length, c = 2.0, 1.5, 0.6
+    rig = rc.Rig(rc.Chain.uniform_rods(1, length=length, mass=mass), drag=c)
+    own, decay = math.sqrt(1.5 * G / length), c / (2 * mass)
+    mode = rc.modes(rig)
+    assert abs(mode.exponent[0] - complex(-decay, math.sqrt(own**2 - decay**2))) < 2e-15
+    assert math.isclose(mode.damping_ratio[0], decay / own, rel_tol=1e-15) and math.isclose(mode.decay_time[0], 1 / decay, rel_tol=1e-15)
+    n, arm = 2.0, 0.1
+    s = 1j * n
+    turn = -(mass * length / 2 * s * s + c * length / 2 * s) * arm / (
+        mass * length**2 / 3 * s * s + c * length**2 / 3 * s + mass * G * length / 2
+    )
+    answer = rc.response(rig, angular_speed=n, support_radius=arm)
+    assert abs(answer.offset[0] - (arm + length * turn)) < 1e-15
+    time = np.linspace(0, 5, 11)
+    swing = rc.swing(rig, time, offset=[0.1, 0.0])
+    rate = math.sqrt(own**2 - decay**2)
+    exact = 0.1 * np.exp(-decay * time) * (np.cos(rate * time) + decay / rate * np.sin(rate * time))
+    assert np.abs(swing.offset[:, 0] - exact).max() < 1e-15
+
+
+def test_linear_drag_is_a_part_of_a_rig():
+    chain = rc.Chain(mass=[1.0, 2.0], length=0.5)
+    rig = rc.Rig(chain, drag=[0.3, 0.0])
+    assert rig == rc.Rig(chain, drag=[0.3, 0.0]) != rc.Rig(chain, drag=0.3) and rig != rc.Rig(chain)
+    assert rc.Rig(chain, drag=0.0) == rc.Rig(chain) and rc.Rig(chain, drag=0.0).drag is None
+    assert rc.Rig.from_dict(rig.to_dict()) == rig and rig.describe().endswith("1 link with linear drag")
+    assert repr(rig) == "Rig of a chain of 2 links: 1 link with linear drag" and rig.is_damped
+    assert rc.Rig(chain, drag="0.3 N s/m").drag == 0.3
+    by_weight = rc.Rig(rc.Chain(weight=[G, 2 * G], length=0.5), drag=[0.3, 0.0])
+    assert np.allclose(rc.modes(rig).exponent, rc.modes(by_weight).exponent, rtol=1e-15)
+    for wrong, words in ((-1.0, "drag must not be negative, got -1"), ([1.0] * 3, "drag must be a number or an array"),
+                         (math.inf, "drag must be finite")):
+        with pytest.raises(ValueError, match=words):
+            rc.Rig(chain, drag=wrong)
+    for ask in (
+        lambda: rc.steady_shapes(rig, angular_speed=9.0), lambda: rc.branches(rig, max_angular_speed=9.0),
+        lambda: rc.drag_shape(rc.Rig(chain, support=rc.Support(radius=1.0), drag=0.1), rc.Drag(1.0, diameter=0.1), angular_speed=2.0),
+    ):
+        with pytest.raises(ValueError, match="linear drag: leave it out"):
+            ask()
+    with pytest.raises(ValueError, match="linear drag has no counterpart"):
+        rc.to_mjcf(rig)
+    with pytest.raises(ValueError):
+        rc.modes(rig).sensitivity  # noqa: B018
+    assert rc.modes(rc.Rig(chain, drag=[0.3, 0.1])).to_dict()["modes"][0]["decay_time"] > 0

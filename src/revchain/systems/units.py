@@ -47,7 +47,7 @@ _NAMES = {
     "a force": "weight added_weight tip_weight tension top_tension force support_force friction",
     "an acceleration": "gravity acceleration support_acceleration",
     "a force per length": "stiffness",
-    "a force over a speed": "damping",
+    "a force over a speed": "damping drag",
     "a torque over an angle": "pin_stiffness",
     "a torque over a rate of angle": "pin_damping",
     "an angular speed": "angular_speed angle_rate spin max_angular_speed low_speed high_speed",
