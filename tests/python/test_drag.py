@@ -13,6 +13,7 @@ from scipy.optimize import brentq
 from tier import by_tier
 
 import revchain as rc
+from revchain.systems.datum import datum_at
 
 G = 9.80665
 
@@ -519,6 +520,8 @@ def test_linear_drag_is_a_part_of_a_rig():
     assert rc.Rig.from_dict(rig.to_dict()) == rig and rig.describe().endswith("1 link with linear drag")
     assert repr(rig) == "Rig of a chain of 2 links: 1 link with linear drag" and rig.is_damped
     assert rc.Rig(chain, drag="0.3 N s/m").drag == 0.3
+    datum = datum_at("test", rig, "links[0].drag", G)
+    assert datum.present == 0.3 and datum.change(0.7) == rc.Rig(chain, drag=[0.7, 0.0])
     by_weight = rc.Rig(rc.Chain(weight=[G, 2 * G], length=0.5), drag=[0.3, 0.0])
     assert np.allclose(rc.modes(rig).exponent, rc.modes(by_weight).exponent, rtol=1e-15)
     for wrong, words in ((-1.0, "drag must not be negative, got -1"), ([1.0] * 3, "drag must be a number or an array"),

@@ -121,6 +121,7 @@ QUESTIONS = {
     "response": lambda system: rc.response(system, angular_speed=9.0),
     "swing": lambda system: rc.swing(system, [0.0, 1.0], offset=[0.1, 0.1, 0.1, 0.0]),
     "campbell": lambda system: rc.campbell(system, [5.0, 6.0]),
+    "drag_shape": lambda system: rc.drag_shape(system, rc.Drag(1.0, diameter=0.01), angular_speed=3.0),
     "tune": lambda system: rc.tune(system, angular_speed=9.0),
     "fit": lambda system: rc.fit(system, {1: (9.0, 0.1)}, vary="length"),
     "explain": lambda system: rc.explain(system, 1),
@@ -141,6 +142,10 @@ CELLS = {  # question: system: None for an answer, or words of the reason and of
     "response": {"cord": "use its chain: cord.chain", "held": "use steady_shapes"},
     "swing": {"held": "use its modes"},
     "campbell": {"cord": "use its chain: cord.chain", "held": "use steady_shapes and stability"},
+    "drag_shape": {
+        **dict.fromkeys(("chain", "rig"), "on the axis a chain with drag has no steady whirl.*give the support a radius"),
+        "cord": "use its chain", "held": "use steady_shapes, without drag",
+    },
     "tune": dict.fromkeys(BENT, "is bent.*give top_tension"),
     "fit": dict.fromkeys(BENT, "is bent.*tune with top_tension"),
     "explain": BENT,
@@ -151,7 +156,7 @@ CELLS = {  # question: system: None for an answer, or words of the reason and of
 }
 KINDS = {"chain": RODS, "rig": RIG, "cord": CORD, "held": HELD, "held, span": SPAN}
 KINDS |= {"held cord": CORD_TAUT, "held cord, span": CORD_HELD}
-WHOLLY_HELD = {"response", "swing", "campbell"}  # refuse all that is held alike
+WHOLLY_HELD = {"response", "swing", "campbell", "drag_shape"}  # refuse all that is held alike
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -388,7 +393,7 @@ def test_classes_of_results_can_be_imported(repository):
     for module in pkgutil.iter_modules(results.__path__, "revchain.results."):
         importlib.import_module(module.name)
     received = {name for name in CLASSES if name[0] != "_"} - {"Results", "Solved", "PairShape"}
-    assert len(received) <= 26 and all(getattr(rc, name) is CLASSES[name] for name in received), sorted(received)
+    assert len(received) <= 27 and all(getattr(rc, name) is CLASSES[name] for name in received), sorted(received)
     reference = (repository / "docs/reference/python.rst").read_text(encoding="utf-8").split()
     assert received <= set(reference) and set(dir(rc)) - {"__version__"} <= set(reference)
 

@@ -220,7 +220,7 @@ def _of_rig(caller: str, rig: Rig, path: str, link: int | None, gravity: float) 
         return Rig._from_state((*fittings.values(), *rest))
 
     if name == "drag":
-        assert link is not None
+        assert link is not None and rig.drag is not None
         column = np.broadcast_to(rig.drag, rig.size)
         typical = rig._force(gravity) * chain._compiled.total_weight / math.sqrt(gravity * chain.total_length)
 
