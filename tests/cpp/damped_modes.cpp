@@ -114,8 +114,17 @@ TEST_CASE("random rigs with dashpots: every exponent within its bound, none miss
 
 TEST_CASE("10,000 random rigs with dashpots", "[.slow]") {
     const Checked all[] = {check(5000, 11, {}), check(2000, 12, {.momentum = true}), check(2000, 13, {.stands = true}),
-                           check(1000, 14, {.extreme = true}), check(5000, 15, {.drag = true}),
-                           check(5000, 16, {.momentum = true, .stands = true, .drag = true})};
+                           check(1000, 14, {.extreme = true})};
+    for (const Checked& each : all) {
+        WARN(each.modes << " modes, " << each.unproved << " without a proved bound of 1e-15, " << each.poor_estimates
+                        << " estimates below a tenth of the error");
+        CHECK(each.poor_estimates * 100 <= each.modes);
+    }
+}
+
+TEST_CASE("10,000 random rigs with linear drag", "[.slow]") {
+    const Checked all[] = {check(7000, 15, {.drag = true}), check(2000, 16, {.momentum = true, .stands = true, .drag = true}),
+                           check(1000, 17, {.extreme = true, .drag = true})};
     for (const Checked& each : all) {
         WARN(each.modes << " modes, " << each.unproved << " without a proved bound of 1e-15, " << each.poor_estimates
                         << " estimates below a tenth of the error");

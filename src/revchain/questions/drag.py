@@ -15,6 +15,7 @@ from .refuse import refuse_other
 
 _CALLER = "revchain.drag_shape"
 _NOTHING = np.zeros(1)
+_MOST_WAVES = 2**31 - 1  # what the compiled module can hold
 
 
 def drag_shape(
@@ -101,7 +102,7 @@ def drag_shape(
     bodies = drag._given.get("body_coefficient", given["coefficient"])
     core = _core.drag_shape(
         system._under(g), **given, body_coefficient=bodies, density=drag.density, angular_speed=speed,
-        half_waves=waves, gravity=g, force=system._force(g),
+        half_waves=None if waves is None else min(waves, _MOST_WAVES), gravity=g, force=system._force(g),
     )
     return DragShape._made(
         core, system=system, gravity=g, angular_speed=speed, _half_waves=waves, _drag=dict(drag._given)
