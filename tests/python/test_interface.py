@@ -111,6 +111,7 @@ CORD = rc.Cord(1.5, mass=3.0)
 CORD_HELD = rc.Held(rc.Cord(1.0, mass=1.0), span=0.5)
 CORD_TAUT = rc.Held(rc.Cord(1.0, mass=1.0), tension=15.0)
 RIG = rc.Rig(RODS, support=rc.Support(stiffness=200.0, mass=0.5))
+CARRIED = rc.Rig(RODS, support=rc.Support(stiffness=200.0, mass=0.5, radius=0.3))
 QUESTIONS = {
     "modes": lambda system: rc.modes(system, 2),
     "count_modes": lambda system: rc.count_modes(system, angular_speed=9.0),
@@ -121,7 +122,9 @@ QUESTIONS = {
     "response": lambda system: rc.response(system, angular_speed=9.0),
     "swing": lambda system: rc.swing(system, [0.0, 1.0], offset=[0.1, 0.1, 0.1, 0.0]),
     "campbell": lambda system: rc.campbell(system, [5.0, 6.0]),
-    "drag_shape": lambda system: rc.drag_shape(system, rc.Drag(1.0, diameter=0.01), angular_speed=3.0),
+    "drag_shape": lambda system: rc.drag_shape(
+        CARRIED if system is RIG else system, rc.Drag(1.0, diameter=0.01), angular_speed=3.0
+    ),
     "tune": lambda system: rc.tune(system, angular_speed=9.0),
     "fit": lambda system: rc.fit(system, {1: (9.0, 0.1)}, vary="length"),
     "explain": lambda system: rc.explain(system, 1),
@@ -143,7 +146,7 @@ CELLS = {  # question: system: None for an answer, or words of the reason and of
     "swing": {"held": "use its modes"},
     "campbell": {"cord": "use its chain: cord.chain", "held": "use steady_shapes and stability"},
     "drag_shape": {
-        **dict.fromkeys(("chain", "rig"), "on the axis a chain with drag has no steady whirl.*give the support a radius"),
+        "chain": "on the axis a chain with drag has no steady whirl.*give the support a radius",
         "cord": "use its chain", "held": "use steady_shapes, without drag",
     },
     "tune": dict.fromkeys(BENT, "is bent.*give top_tension"),
