@@ -180,7 +180,8 @@ std::vector<finite::LinkDrag> drag_of_links(const Rig& rig, const Drag& drag, do
         if (list.empty()) return 0.0;
         return list.size() == 1 ? list[0] : list[static_cast<std::size_t>(m)];
     };
-    const auto& of_bodies = drag.body_coefficient.empty() ? drag.coefficient : drag.body_coefficient;
+    const auto& of_bodies =
+        drag.body_coefficient.empty() ? drag.coefficient : drag.body_coefficient;
     const ChainUnits units = rig.chain().units();
     const int of_length = units.length_exponent, of_weight = units.weight_exponent;
     std::vector<finite::LinkDrag> result;

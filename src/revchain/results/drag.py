@@ -87,7 +87,8 @@ class DragShape(Result, row="link", title="{summary}", notes=("{_remarks}",), go
         part=True, fact=True,
     )
     factor: Field[float] = Field(
-        "1 if `status` is success. Otherwise the shape is that with this share of the drag or, from rest, of the squared speed.",
+        "1 if `status` is success. Otherwise the shape is that with this share of the drag or, from rest, of the squared "
+        "speed.",
         part=True, fact=True,
     )
     folds: Field[int] = Field(

@@ -626,7 +626,7 @@ class Rig(System):
 
     def _needs_gravity(self) -> bool:
         wheels = self.flywheels is not None and (self.by_mass or "spin" in self.flywheels._given)
-        springs = self.support.damping > 0 or 0 < self.support.stiffness < math.inf or self.pins is not None or self.drag is not None
+        springs = 0 < self.support.stiffness < math.inf or self._has_pins
         return wheels or (self.by_mass and springs)
 
     def _made(self, gravity: float) -> _core.Rig:
