@@ -78,11 +78,13 @@ struct DragShape {
 /// is balanced by the force on the support, so that the support must be off the axis.
 ///
 /// Method: continuation along the arc. From rest, the square of the speed grows from 0, and the
-/// drag with it. With `half_waves`, the shape of `steady_shapes` whose free end is farthest out is
-/// followed while a factor of the drag grows from 0 to 1. Unknowns are the directions of the links.
-/// Newton's method has the exact derivative, eliminated link by link in 2 x 2 blocks, O(N); the
-/// last steps balance the forces in two words. Drag is integrated along each link by Gauss's rule on parts that
-/// shrink towards the slowest point. It is not proved that there is no other shape.
+/// drag with it (momenta act in full from the start). With `half_waves`, the shape of
+/// `steady_shapes` whose free end is farthest out is followed while a factor of the drag grows from
+/// 0 to 1. Unknowns are the directions of the links. Newton's method has the exact derivative,
+/// eliminated link by link in 2 x 2 blocks, O(N); the last steps balance the forces in two words.
+/// Drag is integrated along each link by Gauss's rule on parts that shrink towards the slowest
+/// point. Folds on the way are followed round; after 3000 steps, or where the way returns to its
+/// beginning, the status is `fold`. It is not proved that there is no other shape.
 /// `error_estimate` is the change by a rule of more points, and rounding.
 /// Accuracy measured (tests/python/test_drag.py): one link within 2e-15 rad of 40 digits, random
 /// chains within 1e-15 rad (median) by a step of Newton's method in other coordinates. Not proved.
