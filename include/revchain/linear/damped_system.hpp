@@ -51,6 +51,13 @@ std::vector<pencil::Complex> first_exponents(DampedSystem& of) {
     return starts;
 }
 
+/// Sorts exponents as modes are numbered.
+REVCHAIN_LAZY
+void sort_by_size(std::vector<pencil::DampedRoot>& roots) {
+    std::sort(roots.begin(), roots.end(),
+              [](const auto& x, const auto& y) { return size_of(x.s) < size_of(y.s); });
+}
+
 /// Returns all exponents but 0, refined, of each conjugate pair one, by size.
 REVCHAIN_LAZY
 std::vector<pencil::DampedRoot> damped_roots(DampedSystem& of) {
@@ -88,8 +95,7 @@ std::vector<pencil::DampedRoot> damped_roots(DampedSystem& of) {
         if (!of.momentum && std::abs(s.imag()) < 1e-6 * std::abs(s)) s = s.real();
         take(!of.momentum && s.imag() < 0 ? std::conj(s) : s);
     }
-    std::sort(roots.begin(), roots.end(),
-              [](const auto& x, const auto& y) { return size_of(x.s) < size_of(y.s); });
+    sort_by_size(roots);
     return roots;
 }
 

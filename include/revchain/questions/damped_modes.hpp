@@ -84,6 +84,7 @@ DampedModes damped_modes(const Rig& rig, const DampedModesOptions& options) {
     };
     if (system.inertia && !all_within(0x1p-60)) {
         for (pencil::DampedRoot& root : roots) pencil::sharpen(system.pencil(), root);
+        sort_by_size(roots);  // two that are nearly alike may have changed places
         radius = damped_radii(system, roots, false);
         if (!all_within(0x1p-60)) radius = damped_radii(system, roots, true);
     }
