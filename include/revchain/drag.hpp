@@ -86,8 +86,8 @@ struct DragShape {
 /// point. Folds on the way are followed round; after 3000 steps, or where the way returns to its
 /// beginning, the status is `fold`. It is not proved that there is no other shape.
 /// `error_estimate` is the change by a rule of more points, and rounding.
-/// Accuracy measured (tests/python/test_drag.py): one link within 2e-15 rad of 40 digits, random
-/// chains within 1e-15 rad (median) by a step of Newton's method in other coordinates. Not proved.
+/// Accuracy measured (tests/python/test_drag.py): one link within 2e-15 rad of 40 digits,
+/// 10,000 random chains within 3e-14 rad by a step of Newton's method in other coordinates.
 /// A support on a spring yields alike in every horizontal direction. Dashpots at pins have no part
 /// in a rigid figure. Drag of the arm is not included.
 /// Source of the drag across a cylinder: Hoerner, Fluid-Dynamic Drag (1965), 3-11 (cross-flow
