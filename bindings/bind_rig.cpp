@@ -33,10 +33,10 @@ Rig make_rig(const Chain<double>& chain, double stiffness, double carriage_weigh
              const std::optional<Array>& displaced_centroid, const std::optional<Array>& displaced_radius_of_gyration,
              const std::optional<Array>& added_weight, bool turning_fluid, double force, double gravity,
              double support_damping, const std::optional<Array>& pin_stiffness,
-             const std::optional<Array>& pin_damping) {
+             const std::optional<Array>& pin_damping, const std::optional<Array>& drag) {
     for (const auto* array : {&momentum, &axial_moment, &wheel_weight, &wheel_radius_of_gyration, &spin, &driven,
                               &displaced_weight, &displaced_centroid, &displaced_radius_of_gyration, &added_weight,
-                              &pin_stiffness, &pin_damping})
+                              &pin_stiffness, &pin_damping, &drag})
         if (*array && (*array)->ndim() > 0 && (*array)->size() != chain.size())
             revchain::detail::throw_invalid("Rig", "arrays must have one number for each link", (*array)->size());
     if (standing && standing->size() != chain.size())
@@ -54,6 +54,7 @@ Rig make_rig(const Chain<double>& chain, double stiffness, double carriage_weigh
                                            at(driven, m, 0) != 0, gravity));
         if (pin_stiffness || pin_damping)
             with.pins.push_back({quotient(at(pin_stiffness, m, 0), force), quotient(at(pin_damping, m, 0), force)});
+        if (drag) with.drag.push_back(quotient(at(drag, m, 0), force));
         if (!floats) continue;
         const revchain::Link<double> link = chain.link(m);
         Displaced fluid = displaced_by(link, at(displaced_weight, m, 0), at(added_weight, m, 0));
@@ -97,7 +98,7 @@ void bind_rig(py::module_& module) {
              "driven"_a = py::none(), "displaced_weight"_a = py::none(), "displaced_centroid"_a = py::none(),
              "displaced_radius_of_gyration"_a = py::none(), "added_weight"_a = py::none(), "turning_fluid"_a = false,
              "force"_a = 1.0, "gravity"_a = revchain::conical_pendulum::standard_gravity, "support_damping"_a = 0.0,
-             "pin_stiffness"_a = py::none(), "pin_damping"_a = py::none())
+             "pin_stiffness"_a = py::none(), "pin_damping"_a = py::none(), "drag"_a = py::none())
         .def_property_readonly("momentum", &of_wheels<&Flywheel::momentum>)
         .def_property_readonly("axial_moment", &of_wheels<&Flywheel::axial_moment>)
         .def(

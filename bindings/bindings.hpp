@@ -113,6 +113,7 @@ void bind_cord(py::module_& module);
 void bind_held(py::module_& module);
 void bind_two_links(py::module_& module);
 void bind_diagrams(py::module_& module);
+void bind_drag(py::module_& module);
 void bind_batch(py::module_& module);
 void bind_response(py::module_& module);
 void bind_models(py::module_& module);

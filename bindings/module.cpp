@@ -49,6 +49,7 @@ PYBIND11_MODULE(_core, module, py::mod_gil_not_used()) {
     bind_held(module);
     bind_two_links(module);
     bind_diagrams(module);
+    bind_drag(module);
     bind_batch(module);
     bind_response(module);
     bind_models(module);

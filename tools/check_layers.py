@@ -67,6 +67,7 @@ PUBLIC = {
     "stability.hpp": "finite/stability",
     "stability_windows.hpp": "finite/stability",
     "campbell.hpp": "questions",
+    "drag.hpp": "questions",
     "branches.hpp": "finite/branch",
     "held.hpp": "questions",
     "cord.hpp": "analytic",

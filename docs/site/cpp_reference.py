@@ -210,7 +210,7 @@ def purpose(header: Path) -> str:
 
 GROUPS = {
     "Systems": "chain rig cord held",
-    "Questions": "modes methods rig_modes damped_modes count explain steady_shapes thorough branches stability stability_windows campbell response forced_motion swing transient "
+    "Questions": "modes methods rig_modes damped_modes count explain steady_shapes thorough branches stability stability_windows campbell drag response forced_motion swing transient "
     "sensitivity tune batch statics recurrence",
     "Closed forms of the paper": "conical_pendulum compound_link two_links hoop rope governor sleeve_governor gyrostatic_string bell buffer",
     "All at once": "revchain analytic",

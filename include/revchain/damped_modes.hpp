@@ -53,7 +53,7 @@ struct DampedModes {
 
 /// Modes of small motion of a rig with dashpots: M s^2/g + (C - i G) s + K, with K from weights and
 /// springs, C from dashpots and G from momenta. Dashpots at pins act on the rates of the angles
-/// between links, that of the support on its velocity.
+/// between links, that of the support on its velocity, linear drag on the velocity of each link.
 ///
 /// Method: Eigen's eigenvalues of the first-order form are starts. Each is refined with a symmetric
 /// Rayleigh quotient in two words, O(N). All vectors together, which are orthogonal with respect to

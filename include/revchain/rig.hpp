@@ -124,6 +124,9 @@ struct Rigging {
     Fluid fluid = Fluid::still;
     std::vector<Displaced> displaced{};
     std::vector<Pin> pins{};  ///< the upper pin of each link
+    /// Linear drag of each link in still air, force times time over length, >= 0: spread evenly along
+    /// it, on the velocity. It adds to the dashpots what the mass of a uniform rod adds to the masses.
+    std::vector<Wide<double>> drag{};
 
     friend bool operator==(const Rigging&, const Rigging&) = default;
 };
@@ -164,14 +167,21 @@ class Rig {
     Pin pin(Index m) const {
         return with_.pins.empty() ? Pin{} : with_.pins[static_cast<std::size_t>(m)];
     }
+    Wide<double> drag(Index m) const {
+        return with_.drag.empty() ? Wide<double>(0.0) : with_.drag[static_cast<std::size_t>(m)];
+    }
+    bool has_drag() const {
+        return std::any_of(with_.drag.begin(), with_.drag.end(),
+                           [](const Wide<double>& drag) { return drag != Wide<double>(0.0); });
+    }
     /// Whether any pin has a spring.
     bool has_pin_springs() const {
         return std::any_of(with_.pins.begin(), with_.pins.end(),
                            [](const Pin& pin) { return pin.stiffness != Wide<double>(0.0); });
     }
-    /// Whether any pin or the support has a dashpot.
+    /// Whether any pin or the support has a dashpot, or a link linear drag.
     bool is_damped() const {
-        return with_.support.damping != Wide<double>(0.0) ||
+        return with_.support.damping != Wide<double>(0.0) || has_drag() ||
                std::any_of(with_.pins.begin(), with_.pins.end(),
                            [](const Pin& pin) { return pin.damping != Wide<double>(0.0); });
     }

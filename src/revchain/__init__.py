@@ -7,13 +7,14 @@ whirl speed of small amplitude is the natural angular frequency of its swing in 
 Revolving Chain" (1908).
 
 Systems
-    Chain, Rig (with Support, Pin, Flywheel, Displaced), Cord, Held; SupportMotion
+    Chain, Rig (with Support, Pin, Flywheel, Displaced), Cord, Held; SupportMotion, Drag
 Questions
-    modes, count_modes, steady_shapes, steady_shape, branches, branch, response, swing, campbell, tune, fit, explain;
+    modes, count_modes, steady_shapes, steady_shape, branches, branch, response, swing, campbell, drag_shape, tune, fit,
+    explain;
     conical_heights for many chains at once
 Results
     Modes, SteadyShapes, SteadyShape, Branches, Branch,
-    Stability, ForceDiagram, Response, Swing, Campbell, Tuned, Fitted, Explanation, Sensitivity, Uncertainty; ``load`` reads the
+    Stability, ForceDiagram, Response, Swing, Campbell, DragShape, Tuned, Fitted, Explanation, Sensitivity, Uncertainty; ``load`` reads the
     files that their method ``save`` wrote. Variants of these, and classes of their fields, are in the reference.
 Closed forms
     conical_pendulum, plummet, two_links, elliptic, hoop, bell_and_clapper, funicular_polygon, transverse_modes,
@@ -52,6 +53,7 @@ from .questions.batch import conical_heights as conical_heights
 from .questions.branches import branch as branch
 from .questions.branches import branches as branches
 from .questions.campbell import campbell as campbell
+from .questions.drag import drag_shape as drag_shape
 from .questions.explain import explain as explain
 from .questions.fit import fit as fit
 from .questions.modes import count_modes as count_modes
@@ -66,6 +68,7 @@ from .results.branches import Branch as Branch
 from .results.branches import Branches as Branches
 from .results.campbell import Campbell as Campbell
 from .results.diagrams import ForceDiagram as ForceDiagram
+from .results.drag import DragShape as DragShape
 from .results.explanation import Explanation as Explanation
 from .results.fitted import Fitted as Fitted
 from .results.modes import Modes as Modes
@@ -80,6 +83,7 @@ from .results.tuned import Tuned as Tuned
 from .scenes.error import SceneError as SceneError
 from .systems.chain import Chain as Chain
 from .systems.cord import Cord as Cord
+from .systems.drag import Drag as Drag
 from .systems.held import Held as Held
 from .systems.rig import Displaced as Displaced
 from .systems.rig import Flywheel as Flywheel

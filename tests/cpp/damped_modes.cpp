@@ -4,6 +4,7 @@
 #include "revchain/damped_modes.hpp"
 
 #include "revchain/rig_modes.hpp"
+#include "revchain/steady_shapes.hpp"
 #include "support/catch.hpp"
 #include "support/damped_truth.hpp"
 
@@ -28,7 +29,7 @@ Checked check(Index count, std::uint64_t seed, const support::DampedOptions& opt
         const DampedModes found = damped_modes(rig, {.gravity = 9.81});
         const Truth truth(rig, 9.81);
         CAPTURE(k, rig.size(), rig.support().stiffness.high, rig.support().damping.high);
-        const bool drifts = rig.support().is_free() && rig.support().damping.high == 0;
+        const bool drifts = rig.support().is_free() && rig.support().damping.high == 0 && !rig.has_drag();
         Index exponents = rig.support().is_free() && !drifts ? 1 : 0;
         for (Index j = 0; j < found.size(); ++j) {
             const std::complex<double> s = found.exponent[j];
@@ -72,6 +73,32 @@ TEST_CASE("one pendulum with a dashpot: s = -c/2 + i sqrt(g/l - c^2/4)", "[linea
     CHECK(m.damped_frequency(1) == 0);
 }
 
+TEST_CASE("a rod with linear drag: s = -c/(2 m) + i sqrt(3 g/(2 l) - (c/(2 m))^2)", "[linear]") {
+    const double m = 2, l = 1.5, g = 9.81;
+    for (const double c : {1e-9, 0.6, 5.0}) {
+        const auto found = damped_modes({Chain<double>({uniform_rod(m * g, l)}), {.drag = {c}}}, {.gravity = g});
+        const double decay = c / (2 * m), own = 1.5 * g / l;
+        REQUIRE(found.size() == 1);
+        CHECK(std::abs(found.exponent[0] - std::complex<double>(-decay, std::sqrt(own - decay * decay))) <= 2e-15);
+        CHECK(std::abs(found.damping_ratio(0) - decay / std::sqrt(own)) <= 4e-16);
+        CHECK(found.error_bound[0] <= 1.2e-16);
+    }
+    // drag in proportion to mass moves every exponent by -c/(2 m) along a circle
+    const Chain<double> chain = Chain<double>::uniform_rods(5, 2.0, 3.0 * g);
+    const auto free = modes(Rig(chain, {}), {.count = all_modes, .gravity = g});
+    const auto found = damped_modes({chain, {.drag = std::vector<Wide<double>>(5, 0.3)}}, {.gravity = g});
+    for (Index j = 0; j < 5; ++j) {
+        CHECK(std::abs(std::abs(found.exponent[j]) / free.forward.angular_speed[j] - 1) <= 4e-15);
+        CHECK(std::abs(found.exponent[j].real() + 0.3 / (2 * 0.6)) <= 4e-15);
+    }
+    // a free trolley comes to rest in air, and does not drift
+    const auto trolley = damped_modes({chain, {.support = free_trolley(1.0), .drag = std::vector<Wide<double>>(5, 0.3)}});
+    CHECK(trolley.rigid == 1);
+    Index exponents = 1;
+    for (const auto& s : trolley.exponent) exponents += s.imag() == 0 ? 1 : 2;
+    CHECK(exponents == 12);
+}
+
 TEST_CASE("random rigs with dashpots: every exponent within its bound, none missed", "[linear]") {
     const Checked plain = check(250, 1, {});
     CHECK(plain.unproved == 0);
@@ -80,12 +107,24 @@ TEST_CASE("random rigs with dashpots: every exponent within its bound, none miss
     const Checked standing = check(120, 3, {.stands = true});
     CHECK(standing.unproved * 100 <= standing.modes);
     const Checked extreme = check(120, 4, {.extreme = true, .most = 6});
-    for (const Checked& each : {plain, spinning, standing, extreme}) CHECK(each.poor_estimates * 100 <= each.modes);
+    const Checked dragged = check(250, 5, {.drag = true});
+    CHECK(dragged.unproved == 0);
+    for (const Checked& each : {plain, spinning, standing, extreme, dragged}) CHECK(each.poor_estimates * 100 <= each.modes);
 }
 
 TEST_CASE("10,000 random rigs with dashpots", "[.slow]") {
     const Checked all[] = {check(5000, 11, {}), check(2000, 12, {.momentum = true}), check(2000, 13, {.stands = true}),
                            check(1000, 14, {.extreme = true})};
+    for (const Checked& each : all) {
+        WARN(each.modes << " modes, " << each.unproved << " without a proved bound of 1e-15, " << each.poor_estimates
+                        << " estimates below a tenth of the error");
+        CHECK(each.poor_estimates * 100 <= each.modes);
+    }
+}
+
+TEST_CASE("10,000 random rigs with linear drag", "[.slow]") {
+    const Checked all[] = {check(7000, 15, {.drag = true}), check(2000, 16, {.momentum = true, .stands = true, .drag = true}),
+                           check(1000, 17, {.extreme = true, .drag = true})};
     for (const Checked& each : all) {
         WARN(each.modes << " modes, " << each.unproved << " without a proved bound of 1e-15, " << each.poor_estimates
                         << " estimates below a tenth of the error");
@@ -220,6 +259,9 @@ TEST_CASE("what springs, dashpots and trolleys refuse", "[linear]") {
     CHECK_THROWS_WITH(with({.support = {.stiffness = 0, .radius = 2}}), Contains("no radius"));
     CHECK_THROWS_WITH(with({.support = {.damping = 2}}), Contains("a firm one does not move its dashpot"));
     CHECK_THROWS_WITH(with({.support = {.stiffness = -1}}), Contains("must not be negative"));
+    CHECK_THROWS_WITH(with({.drag = {1.0}}), Contains("drag must be empty or have one entry for each of the 2"));
+    CHECK_THROWS_WITH(with({.drag = {1.0, -1.0}}), Contains("links[1]") && Contains("linear drag"));
+    CHECK_THROWS_WITH(steady_shapes(with({.drag = {1.0, 1.0}}), {.conical_height = 0.3}), Contains("linear drag: leave it out"));
     const Rig damped = with({.pins = {{.damping = 1}, {}}});
     CHECK_THROWS_WITH(modes(damped), Contains("damped_modes"));
     CHECK_THROWS_WITH(damped_modes(damped, {.first = 0}), Contains("first must be at least 1"));

@@ -76,13 +76,13 @@ Checked check(Index count, std::uint64_t seed, const support::DampedOptions& opt
 
 TEST_CASE("random rigs driven by radius, acceleration and force: offsets to the last digit", "[linear]") {
     for (const Checked& each : {check(400, 1, {}), check(200, 2, {.momentum = true}), check(200, 3, {.stands = true}),
-                                check(100, 4, {.extreme = true, .most = 6})})
+                                check(100, 4, {.extreme = true, .most = 6}), check(300, 5, {.drag = true})})
         CHECK(each.poor == 0);
 }
 
 TEST_CASE("10,000 random rigs driven", "[.slow]") {
     for (const Checked& each : {check(5000, 11, {}), check(2000, 12, {.momentum = true}), check(2000, 13, {.stands = true}),
-                                check(1000, 14, {.extreme = true, .most = 6})}) {
+                                check(1000, 14, {.extreme = true, .most = 6}), check(5000, 15, {.drag = true})}) {
         WARN(each.rows << " rigs, " << each.poor << " estimates below a tenth of the error");
         CHECK(each.poor * 100 <= each.rows);
     }

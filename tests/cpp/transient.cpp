@@ -74,7 +74,7 @@ class Integrated {
                 both[k][2 * n + l] = {-truth_.C[k][l], truth_.G[k][l]};
             }
         for (std::size_t k = 0; k < n; ++k) {
-            if (itself_) both[k][3 * n + 2] = {-truth_.M[k][links], 0};
+            if (itself_) both[k][3 * n + 1] = {-truth_.C[k][links], 0}, both[k][3 * n + 2] = {-truth_.M[k][links], 0};
             if (!itself_ && k == links) both[k][3 * n] = {by_force ? Quad(1) : quad(support.stiffness), 0};
         }
         support::reduce(both);
@@ -208,7 +208,7 @@ Checked check(Index count, std::uint64_t seed, const support::DampedOptions& opt
 TEST_CASE("random rigs whose support is moved: against the exponential of a matrix", "[linear]") {
     for (const Checked& each : {check(60, 1, {.most = 4}), check(30, 2, {.momentum = true, .most = 3}),
                                 check(30, 3, {.stands = true, .most = 4}), check(30, 4, {.damped = false, .most = 4}),
-                                check(30, 5, {.extreme = true, .most = 3})}) {
+                                check(30, 5, {.extreme = true, .most = 3}), check(60, 6, {.drag = true, .most = 4})}) {
         CHECK(each.poor * 100 <= each.rows);
     }
 }

@@ -111,6 +111,7 @@ CORD = rc.Cord(1.5, mass=3.0)
 CORD_HELD = rc.Held(rc.Cord(1.0, mass=1.0), span=0.5)
 CORD_TAUT = rc.Held(rc.Cord(1.0, mass=1.0), tension=15.0)
 RIG = rc.Rig(RODS, support=rc.Support(stiffness=200.0, mass=0.5))
+CARRIED = rc.Rig(RODS, support=rc.Support(stiffness=200.0, mass=0.5, radius=0.3))
 QUESTIONS = {
     "modes": lambda system: rc.modes(system, 2),
     "count_modes": lambda system: rc.count_modes(system, angular_speed=9.0),
@@ -121,6 +122,9 @@ QUESTIONS = {
     "response": lambda system: rc.response(system, angular_speed=9.0),
     "swing": lambda system: rc.swing(system, [0.0, 1.0], offset=[0.1, 0.1, 0.1, 0.0]),
     "campbell": lambda system: rc.campbell(system, [5.0, 6.0]),
+    "drag_shape": lambda system: rc.drag_shape(
+        CARRIED if system is RIG else system, rc.Drag(1.0, diameter=0.01), angular_speed=3.0
+    ),
     "tune": lambda system: rc.tune(system, angular_speed=9.0),
     "fit": lambda system: rc.fit(system, {1: (9.0, 0.1)}, vary="length"),
     "explain": lambda system: rc.explain(system, 1),
@@ -141,6 +145,10 @@ CELLS = {  # question: system: None for an answer, or words of the reason and of
     "response": {"cord": "use its chain: cord.chain", "held": "use steady_shapes"},
     "swing": {"held": "use its modes"},
     "campbell": {"cord": "use its chain: cord.chain", "held": "use steady_shapes and stability"},
+    "drag_shape": {
+        "chain": "on the axis a chain with drag has no steady whirl.*give the support a radius",
+        "cord": "use its chain", "held": "use steady_shapes, without drag",
+    },
     "tune": dict.fromkeys(BENT, "is bent.*give top_tension"),
     "fit": dict.fromkeys(BENT, "is bent.*tune with top_tension"),
     "explain": BENT,
@@ -151,7 +159,7 @@ CELLS = {  # question: system: None for an answer, or words of the reason and of
 }
 KINDS = {"chain": RODS, "rig": RIG, "cord": CORD, "held": HELD, "held, span": SPAN}
 KINDS |= {"held cord": CORD_TAUT, "held cord, span": CORD_HELD}
-WHOLLY_HELD = {"response", "swing", "campbell"}  # refuse all that is held alike
+WHOLLY_HELD = {"response", "swing", "campbell", "drag_shape"}  # refuse all that is held alike
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -51,6 +51,7 @@ FOREIGN = re.compile(
 
 CHAIN = rc.Chain(weight=[1.0, 2.0], length=[1.0, 0.5])
 RIG = rc.Rig(rc.Chain.uniform_rods(3, length=2.0, weight=3.0), support=rc.Support(stiffness=5.0))
+CARRIED = rc.Rig(CHAIN, support=rc.Support(radius=0.5))
 CORD, HELD = rc.Cord(1.0), rc.Held(CHAIN, span=1.0)
 ASK = {"shapes": {"conical_height": 0.4}, "response": {"conical_height": [0.4]}, "swing": {"offset": [0.1, 0.1, 0.1]}}
 SCENE = {"links": [{"mass": 1, "length": 1, "repeat": 3}], "ask": ASK}
@@ -98,6 +99,8 @@ ONE_OF = {
     "Held": {"span": 0.5},
     "Flywheel": {"momentum": 0.1},
     "campbell": {"angular_speed": [6.0, 8.0]},
+    "Drag": {"diameter": 0.1},
+    "drag_shape": {"system": CARRIED, "drag": rc.Drag(1.0, diameter=0.1), "angular_speed": 2.0},
     "SupportMotion": {"time": [0.0, 1.0], "velocity": [1.0, 0.0]},
     "Displaced": {"weight": 0.1},
     "count_modes": {"conical_height": 0.4},
@@ -137,6 +140,7 @@ def objects():
     found += [CORD, HELD, rc.modes(CORD)]
     shapes = rc.steady_shapes(CHAIN, conical_height=0.4)
     branches = rc.branches(CHAIN, max_angular_speed=30.0)
+    found.append(rc.drag_shape(CARRIED, rc.Drag(1.0, diameter=0.1), angular_speed=2.0))
     found += [shapes, shapes[0], shapes[0].force_diagram(), branches, branches[0]]
     held = rc.steady_shapes(HELD, conical_height=0.1)
     cord = rc.steady_shapes(rc.Held(CORD, span=0.6), conical_height=0.1)

@@ -15,14 +15,14 @@ namespace revchain::inline REVCHAIN_BUILD::detail {
 struct DampedSystem {
     RigPencil rig;
     bool momentum;  ///< the motions of one sense are no conjugates of the other's
-    bool rests;     ///< a free trolley with a dashpot: it rests anywhere, and one exponent is 0
+    bool rests;     ///< a free trolley with a dashpot or drag: it rests anywhere, and one exponent is 0
     bool drifts;    ///< without it the momentum is constant, and its offset follows from the links'
     bool inertia = false;  ///< whether M is regular: there are twice as many exponents as freedoms
 
     DampedSystem(const Rig& of, double gravity)
         : rig(rig_pencil(of, gravity, {}, true)),
           momentum(of.has_momentum()),
-          rests(of.support().is_free() && of.support().damping.high > 0),
+          rests(of.support().is_free() && (of.support().damping.high > 0 || of.has_drag())),
           drifts(pencil::keeps_momentum(rig.pencil)) {}
 
     const pencil::DampedPencil& pencil() const { return rig.pencil; }
@@ -49,6 +49,13 @@ std::vector<pencil::Complex> first_exponents(DampedSystem& of) {
     if (of.rests && !starts.empty())
         starts.erase(std::min_element(starts.begin(), starts.end(), smaller));
     return starts;
+}
+
+/// Sorts exponents as modes are numbered.
+REVCHAIN_LAZY
+void sort_by_size(std::vector<pencil::DampedRoot>& roots) {
+    std::sort(roots.begin(), roots.end(),
+              [](const auto& x, const auto& y) { return size_of(x.s) < size_of(y.s); });
 }
 
 /// Returns all exponents but 0, refined, of each conjugate pair one, by size.
@@ -88,8 +95,7 @@ std::vector<pencil::DampedRoot> damped_roots(DampedSystem& of) {
         if (!of.momentum && std::abs(s.imag()) < 1e-6 * std::abs(s)) s = s.real();
         take(!of.momentum && s.imag() < 0 ? std::conj(s) : s);
     }
-    std::sort(roots.begin(), roots.end(),
-              [](const auto& x, const auto& y) { return size_of(x.s) < size_of(y.s); });
+    sort_by_size(roots);
     return roots;
 }
 

@@ -129,12 +129,15 @@ pencil::Joint<Wide<double>> joint(const Rig& rig, Index m, const ChainUnits& uni
     const Pin pin = rig.pin(m);
     const int unit = units.weight_exponent + units.length_exponent;
     const S lever(std::ldexp(rig.chain().length()[m], -units.length_exponent));
-    const S stiffness = ldexp(pin.stiffness, -unit), damping = ldexp(pin.damping, -unit);
-    for (const S& each : {stiffness, damping})
+    const S stiffness = ldexp(pin.stiffness, -unit), damping = ldexp(pin.damping, -unit),
+            drag = ldexp(rig.drag(m), units.length_exponent - units.weight_exponent);
+    for (const S& each : {stiffness, damping, drag})
         if (each.high != 0 && !(each.high > 0x1p-800 && each.high < 0x1p800))
-            throw_invalid("Rig", "a pin's stiffness or damping is too far from weight times length",
-                          pin.stiffness.high);
-    return {rig.stands(m) ? -lever : lever, stiffness, damping * pace};
+            throw_invalid("Rig",
+                          "a pin's stiffness or damping, or the drag of a link, is too far from "
+                          "weight and length",
+                          each.high);
+    return {rig.stands(m) ? -lever : lever, stiffness, damping * pace, drag * pace / S(6.0)};
 }
 
 /// Returns the joint of a support that yields: its dashpot.
@@ -143,7 +146,7 @@ pencil::Joint<Wide<double>> support_joint(const Support& support, const ChainUni
                                           const Wide<double>& pace) {
     using S = Wide<double>;
     const S damping = ldexp(support.damping, units.length_exponent - units.weight_exponent);
-    return {S(0.0), S(0.0), damping * pace};
+    return {S(0.0), S(0.0), damping * pace, S(0.0)};
 }
 
 /// Sets the numbers of negative and zero eigenvalues of K, which springs at pins change.
@@ -249,7 +252,8 @@ RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::standard
     for (Index m = 0; m < rig.size(); ++m) {
         RigElement e = links[static_cast<std::size_t>(m)];
         if (lower_end) e = lower_end->pulled(e, rig.chain().length()[m], result.units);
-        if (result.pencil.elements.empty() && detail::is_nothing(e) && rig.pin(m) == Pin{}) {
+        if (result.pencil.elements.empty() && detail::is_nothing(e) && rig.pin(m) == Pin{} &&
+            rig.drag(m) == S(0.0)) {
             ++result.idle;
             continue;
         }

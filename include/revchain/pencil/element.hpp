@@ -148,6 +148,8 @@ struct Joint {
     S lever{};      ///< length of the link, negative if it stands; 0: a support that yields
     S stiffness{};  ///< of the torsion spring
     S damping{};    ///< of the dashpot, or of a support's dashpot, in the unit of a stiffness
+    S drag{};       ///< a sixth of the linear drag of the element, in that unit: its matrix is that
+                    ///< of a uniform rod's mass, [2 1; 1 2] of it
 };
 
 /// A family of matrices Q(x), stored as elements, lowest first. It is never assembled: sums of
@@ -227,7 +229,8 @@ ElementPencil<T, Spins, OwnErrors> rounded(const ElementPencil<S, Spins, OwnErro
             for (const Joint<S>& joint : wide.joints)
                 pencil.joints.push_back({static_cast<T>(joint.lever),
                                          static_cast<T>(joint.stiffness),
-                                         static_cast<T>(joint.damping)});
+                                         static_cast<T>(joint.damping),
+                                         static_cast<T>(joint.drag)});
         pencil.quadratic = wide.quadratic;
         pencil.units = wide.units;
         pencil.entry_error = static_cast<T>(wide.entry_error) + epsilon<T>();

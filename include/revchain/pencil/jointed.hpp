@@ -21,6 +21,21 @@ struct JointFactors {
     F stiffness{}, spin{}, damping{}, mass{};
 };
 
+/// What the mass and the drag of an element add at its two pins.
+template <class F>
+struct Carried {
+    F lower, cross, upper;
+};
+
+/// Returns it; `number` makes an F of a number of the element.
+template <class F, Real S, class Number>
+Carried<F> carried(const SignedElement<S>& e, const Joint<S>& joint, const JointFactors<F>& x,
+                   const Number& number) {
+    const F drag = x.damping * number(joint.drag), twice = drag + drag;
+    return {x.mass * number(e.lower) + twice, x.mass * number(e.cross) + drag,
+            x.mass * number(e.upper) + twice};
+}
+
 /// Calls `take(pivot, yr, spring, m)` for each element m, lowest first. `yr` couples the offset of
 /// its upper pin to its own rotation, `spring` is the dynamic stiffness of its joint. F has the
 /// field operations and a constructor from S.
@@ -33,15 +48,16 @@ void eliminate(const SignedPencil<S>& pencil, const JointFactors<F>& x, const Ta
     for (std::size_t m = 0; m < count; ++m) {
         const SignedElement<S>& e = pencil.elements[m];
         const Joint<S>& joint = pencil.joints[m];
-        const F own = x.stiffness * F(e.stiffness) + x.spin * F(e.spin) + x.mass * F(e.lower);
+        const Carried<F> part = carried(e, joint, x, [](const S& y) { return F(y); });
+        const F own = x.stiffness * F(e.stiffness) + x.spin * F(e.spin) + part.lower;
         if (joint.lever == zero) {  // a support: its pin has no rotation
             take(F(yy + own + x.damping * F(joint.damping)), yr, none, m);
             return;
         }
         const F lever(joint.lever), far = lever * yy + yr;
         rr = rr + lever * (yr + far + lever * own);
-        yr = far + x.mass * lever * F(e.lower + e.cross);
-        yy = yy + x.mass * F((e.lower + e.cross) + (e.cross + e.upper));
+        yr = far + lever * (part.lower + part.cross);
+        yy = yy + ((part.lower + part.cross) + (part.cross + part.upper));
         const F spring = x.stiffness * F(joint.stiffness) + x.damping * F(joint.damping);
         const F pivot = rr + spring;
         take(pivot, yr, spring, m);
@@ -271,7 +287,8 @@ std::vector<F> applied(const SignedPencil<S>& pencil, const JointFactors<F>& x,
         const Joint<S>& joint = pencil.joints[m];
         const F& lower = offset[m];
         const F& upper = offset[m + 1];
-        const F at_lower = force + x.mass * (number(e.lower) * lower + number(e.cross) * upper);
+        const Carried<F> part = carried(e, joint, x, number);
+        const F at_lower = force + part.lower * lower + part.cross * upper;
         const F held = x.stiffness * number(e.stiffness) + x.spin * number(e.spin);
         if (m == links) {
             row[m] = at_lower + (held + x.damping * number(joint.damping)) * lower;
@@ -284,7 +301,7 @@ std::vector<F> applied(const SignedPencil<S>& pencil, const JointFactors<F>& x,
         row[m] = lever * (held * lever * q[m] + at_lower) +
                  (Sizes ? bent + spring_below : bent - spring_below);
         spring_below = bent;
-        force = at_lower + x.mass * (number(e.cross) * lower + number(e.upper) * upper);
+        force = at_lower + part.cross * lower + part.upper * upper;
     }
     return row;
 }

@@ -34,7 +34,7 @@ std::vector<double> damped_radii(const DampedSystem& of,
         rest.q.resize(static_cast<std::size_t>(of.pencil().size()));
         rest.off.resize(rest.q.size());
         const Wide<double> one(1.0);
-        rest.q.back() = pencil::ComplexWord(one / sqrt(of.pencil().joints.back().damping));
+        rest.q.back() = pencil::ComplexWord(one / sqrt(pencil::damping_together(of.pencil())));
     }
     std::vector<double> radius(roots.size(), std::numeric_limits<double>::infinity());
     if (!of.inertia || static_cast<Index>(all.size()) != of.exponents()) return radius;
@@ -84,6 +84,7 @@ DampedModes damped_modes(const Rig& rig, const DampedModesOptions& options) {
     };
     if (system.inertia && !all_within(0x1p-60)) {
         for (pencil::DampedRoot& root : roots) pencil::sharpen(system.pencil(), root);
+        sort_by_size(roots);  // two that are nearly alike may have changed places
         radius = damped_radii(system, roots, false);
         if (!all_within(0x1p-60)) radius = damped_radii(system, roots, true);
     }

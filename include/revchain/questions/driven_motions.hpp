@@ -164,7 +164,7 @@ class DrivenMotions {
         if (system_.rests) {  // a motion that does not decay: all moved together
             pencil::DampedRoot rest;
             rest.q.assign(size(), none);
-            rest.q.back() = C(S(1.0) / sqrt(pencil.joints.back().damping));
+            rest.q.back() = C(S(1.0) / sqrt(pencil::damping_together(pencil)));
             take(rest, true);
         }
         if (system_.drifts) {

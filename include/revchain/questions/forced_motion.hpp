@@ -63,12 +63,11 @@ Forced forced_at(const Drive& drive, const Wide<double>& n, const Wide<double>& 
     const bool by_hand = drive.moved == Moved::support,
                by_spring = drive.moved == Moved::far_end_of_spring;
     std::vector<C> load(solver.size(), none), slope = load;
-    const pencil::MovedTogether<C> together(of, {none, none, none, s * s});
     if (by_hand) {
-        for (std::size_t m = 0; m < load.size(); ++m) {
-            load[m] = -(together.load[m] * size);
-            slope[m] = load[m] + load[m];  // s times the derivative: the load has the factor s^2
-        }
+        const pencil::MovedTogether<C> together(of, {none, none, s, s * s}),
+            derived(of, {none, none, s, s * s + s * s});  // s times the derivative
+        for (std::size_t m = 0; m < load.size(); ++m)
+            load[m] = -(together.load[m] * size), slope[m] = -(derived.load[m] * size);
     } else {
         load.back() = by_spring ? C(of.elements.back().stiffness) * size : size;
     }
@@ -103,16 +102,17 @@ Forced forced_at(const Drive& drive, const Wide<double>& n, const Wide<double>& 
     result.error = largest(correction) / most +
                    0x1p-90 * (1 + largest(pencil::offsets(of, slope, number)) / most) + 0x1.01p-53;
     if (!(result.error < 0.25)) result.error = std::numeric_limits<double>::infinity();
-    // The pull is minus the inertia of all links, or that of the spring on what moves it.
+    // The pull is minus the inertia and drag of all links, or that of the spring on what moves it.
     for (std::size_t m = 0; m < of.elements.size(); ++m) {
         const auto& e = of.elements[m];
         if (of.joints[m].lever == S(0.0)) {
             if (by_spring) result.force = C(e.stiffness) * (result.offset[m] - size);
             break;
         }
-        result.force = result.force - s * s *
-                                          (C(e.lower + e.cross) * result.offset[m] +
-                                           C(e.cross + e.upper) * result.offset[m + 1]);
+        const pencil::JointFactors<C> moving{none, none, s, s * s};
+        const pencil::Carried<C> part = pencil::carried(e, of.joints[m], moving, number);
+        result.force = result.force - ((part.lower + part.cross) * result.offset[m] +
+                                       (part.cross + part.upper) * result.offset[m + 1]);
     }
     const pencil::JointFactors<S> steady{S(1.0), n, S(0.0), -(n * n)};
     result.slower = pencil::certified_count(of, steady).above - drive.modes_at_rest;

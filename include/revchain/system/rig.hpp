@@ -33,6 +33,7 @@ inline void require_no_pins(std::string_view place, std::string_view what, const
             rig.size());
     };
     if (rig.has_pin_springs()) refuse("springs at pins: leave them out");
+    if (rig.has_drag()) refuse("linear drag: leave it out");
     if (rig.support().damping.high > 0 || (dashpots_matter && rig.is_damped()))
         refuse("dashpots: leave them out");
     if (rig.support().is_free()) refuse("a trolley that rolls freely: give it a stiffness");
@@ -81,6 +82,7 @@ inline void Rig::check() const {
     };
     as_long(with_.posture.size(), "posture"), as_long(with_.flywheels.size(), "flywheels");
     as_long(with_.displaced.size(), "displaced"), as_long(with_.pins.size(), "pins");
+    as_long(with_.drag.size(), "drag");
     const Support& support = with_.support;
     if (!(support.stiffness.high >= 0))
         detail::throw_invalid("Rig", "the stiffness of the support must not be negative",
@@ -100,7 +102,9 @@ inline void Rig::check() const {
     detail::require_not_negative("Rig", "carriage weight", support.carriage_weight,
                                  "radius of the support", support.radius);
     detail::require_spring_under_carriage("Rig", "the support", support);
-    if (with_.flywheels.empty() && with_.displaced.empty() && with_.pins.empty()) return;
+    if (with_.flywheels.empty() && with_.displaced.empty() && with_.pins.empty() &&
+        with_.drag.empty())
+        return;
     const auto check_link = [&](Index m, std::string_view place) {
         const Flywheel wheel = flywheel(m);
         detail::require_finite(place, "momentum", wheel.momentum.high);
@@ -108,6 +112,7 @@ inline void Rig::check() const {
         const Pin joint = pin(m);
         detail::require_not_negative(place, "stiffness of the upper pin", joint.stiffness.high,
                                      "damping of the upper pin", joint.damping.high);
+        detail::require_not_negative(place, "linear drag", drag(m).high);
         const Displaced fluid = displaced(m);
         detail::require_not_negative(place, "weight displaced", fluid.weight);
         detail::require_finite(place, "centre of buoyancy", fluid.centroid);

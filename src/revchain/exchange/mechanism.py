@@ -147,6 +147,8 @@ def mechanism(function: str, given: Any, gravity: float | None) -> tuple[Mechani
     if rig._floats:
         instead = "give the rig without displaced"
         raise ValueError(f"{function}: a fluid has no counterpart in the engine; {instead}, got {rig!r}")
+    if rig.drag is not None:
+        raise ValueError(f"{function}: linear drag has no counterpart in the engine; give the rig without drag, got {rig!r}")
     made, momentum, axial = _bodies(function, rig, gravity)
     if shapes is None:
         return made, [_at_rest(rig, made, momentum)]

@@ -11,6 +11,7 @@ DRAWN_BY = {
     "SteadyShapes": "shapes.plot_shapes",
     "Branch": "shapes.plot_branch",
     "Branches": "shapes.plot_branches",
+    "DragShape": "shapes.plot_drag_shape",
     "Response": "response.plot_response",
     "Swing": "response.plot_swing",
     "Campbell": "response.plot_campbell",

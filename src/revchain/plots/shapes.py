@@ -11,13 +11,15 @@ import numpy as np
 from ..closed_forms.table import described
 from ..systems.numbers import word
 from .modes import ARM, beside_at_rest, draw_spring
-from .style import AXIS, MOST_PINS_AS_DOTS, SpeedUnit, half_waves_style, keep_room, legend_outside, thinned
+from .style import AXIS, MOST_PINS_AS_DOTS, SpeedUnit, axes_or_new, half_waves_style, house, keep_room
+from .style import legend_outside, new_figure, thinned
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
 
     from ..results.branches import Branch, Branches
+    from ..results.drag import DragShape
     from ..results.shapes import SteadyShape, SteadyShapes
 
 QUANTITIES = {
@@ -61,6 +63,55 @@ def plot_shapes(shapes: SteadyShapes, ax: Axes | None = None, *, speed: str = "r
     at = shapes.angular_speed if shapes else None
     ax = _draw_shapes(shapes, ax, title=None if at is None else f"at {unit.text(at)}")
     ax.set_title(shapes._how_many())
+    return ax
+
+
+@described(bound=True)
+def plot_drag_shape(shape: DragShape, ax: Axes | None = None, *, view: str | None = None) -> Axes:
+    """Draw the shape from the side and from above, true to scale; an arrow has the sense of the motion.
+
+    view: ``"side"``: seen along the motion, outward distance against depth. ``"above"``: outward distance against distance
+        in the sense of the motion. If left out, both are drawn one above the other, in given axes the view from above.
+
+    >>> carousel = rc.Rig(rc.Chain(mass=80.0, length=4.0), support=rc.Support(radius=3.0))
+    >>> ax = rc.drag_shape(carousel, rc.Drag(1.0, area=0.6), angular_speed="12 rpm").plot(view="above")
+    >>> ax.get_ylabel()
+    'distance in the sense of motion (m)'
+    """
+    chosen = None if view is None else word("revchain.DragShape.plot", "view", view, ("side", "above"))
+    if ax is None and chosen is None:
+        figure = new_figure(6.0, 8.0)
+        side, above = figure.subplots(2, 1, sharex=True)
+        for each in (side, above):
+            each.spines[["top", "right"]].set_visible(False)
+        _draw_from(shape, side, "side")
+        side.set_xlabel("")
+        return _draw_from(shape, above, "above")
+    return _draw_from(shape, axes_or_new(ax, 6.0, 5.0), chosen or "above")
+
+
+def _draw_from(shape: DragShape, ax: Axes, view: str) -> Axes:
+    x, y, z = shape.position.T
+    across, marker = (y, "v") if view == "above" else (-z, "v")
+    dots = "o" if x.size <= MOST_PINS_AS_DOTS else ""
+    ax.plot([0.0, x[-1]], [0.0, across[-1]], **ARM)
+    ax.plot(x, across, color=house(0), linewidth=1.4, marker=dots, markersize=3.0)
+    ax.plot(x[-1], across[-1], marker=marker, color="black", markersize=7.0, clip_on=False)
+    ax.set_aspect("equal", adjustable="datalim")
+    if view == "side":
+        ax.axvline(0.0, **AXIS)
+        ax.set(xlabel="outward distance (m)", ylabel="depth below the support (m)")
+        ax.yaxis.set_inverted(True)
+        return ax
+    ax.plot(0.0, 0.0, marker="+", color="0.4", markersize=9.0)
+    low, high = sorted((0.0, float(np.arctan2(y[0], x[0]))))
+    arc = np.linspace(low - 0.3, high + 0.3, 200)
+    for radius in {float(np.hypot(x[0], y[0])), float(np.hypot(x[-1], y[-1]))}:
+        ax.plot(radius * np.cos(arc), radius * np.sin(arc), color="0.8", linewidth=0.8, zorder=0)
+    top = float(np.hypot(x[-1], y[-1]))
+    ax.annotate("", (top * np.cos(0.3), top * np.sin(0.3)), (top * np.cos(0.1), top * np.sin(0.1)),
+                arrowprops={"arrowstyle": "->", "color": "0.4"})
+    ax.set(xlabel="outward distance (m)", ylabel="distance in the sense of motion (m)")
     return ax
 
 

@@ -149,6 +149,7 @@ def _paths(system: Any, heavy: str) -> list[str]:
     wheels = () if system.flywheels is None else system.flywheels._given
     fluid = () if system.displaced is None else system.displaced._given
     paths += [f"flywheels[k].{name}" for name in wheels if name not in ("momentum", "driven")]
+    paths += ["links[k].drag"] * (system.drag is not None)
     pins = ("stiffness", "damping") if system.pins is not None else ()
     paths += [f"pins[k].{name}" for name in pins] + ["support.damping"] * (system.support.damping > 0)
     return paths + [f"displaced[k].{name}" for name in fluid]
@@ -218,6 +219,16 @@ def _of_rig(caller: str, rig: Rig, path: str, link: int | None, gravity: float) 
         fittings = {"chain": chain, "support": support, "flywheels": wheels, "displaced": fluid, "pins": pins} | new
         return Rig._from_state((*fittings.values(), *rest))
 
+    if name == "drag":
+        assert link is not None and rig.drag is not None
+        column = np.broadcast_to(rig.drag, rig.size)
+        typical = rig._force(gravity) * chain._compiled.total_weight / math.sqrt(gravity * chain.total_length)
+
+        def dragged(x: float) -> Rig:
+            *kept, _ = rig._state()
+            return Rig._from_state((*kept, np.where(np.arange(rig.size) == link, x, column)))
+
+        return Datum(path, float(column[link]), dragged, typical)
     if where == "" or where.startswith("links"):
         own = _of_chain(caller, chain, path, link, gravity)
         follows = fluid is not None and name in _LENGTHS and path != f"{where}.length"  # the displaced fluid may change with it

@@ -429,6 +429,11 @@ class Rig(System):
         also reduces the mass that whirls.
     pins : Pin, optional
         Springs and dashpots at the pins.
+    drag : array_like, shape (N,) or scalar, optional
+        Linear drag of each link in still air, N s/m, spread evenly along it; for a chain given by weight in the unit of its
+        weights, times time over length. It damps small motion (`modes`, `response`, `swing`) as the mass of a uniform rod
+        resists it, on the velocity instead of the acceleration. Steady shapes with drag, which is then quadratic, are found
+        by `drag_shape`.
     inverted : array_like of bool, shape (N,) or scalar
         Links that stand on their upper pin (counted along the chain) instead of hanging from it. Small oscillations take
         place about the straight chain with these links inverted.
@@ -469,6 +474,7 @@ class Rig(System):
         "_at": None,
         "_inverted": None,
         "chain": "The chain of links, in vacuum.",
+        "drag": "Linear drag of each link, N s/m, shape () or (N,); None if there is none.",
         "displaced": "Fluid that the links displace; None if there is none.",
         "flywheels": "Wheels that spin about the axes of links; None if there are none.",
         "fluid": "Motion of the fluid: ``'still'`` or ``'turning'`` (with the chain).",
@@ -480,6 +486,7 @@ class Rig(System):
     flywheels: Flywheel | None
     displaced: Displaced | None
     pins: Pin | None
+    drag: Floats | None
     fluid: str
     _inverted: NDArray[np.bool_] | None
     _at: tuple[float, _core.Rig]
@@ -494,6 +501,7 @@ class Rig(System):
         fluid: str = "still",
         inverted: ArrayLike = False,
         pins: Pin | None = None,
+        drag: ArrayLike | None = None,
     ) -> None:
         caller = "revchain.Rig"
         compiled(caller, chain)
@@ -521,6 +529,12 @@ class Rig(System):
         _set(self, "flywheels", flywheels)
         _set(self, "displaced", displaced)
         _set(self, "pins", pins if pins is not None and pins._given else None)
+        dragged = None if drag is None else floats(caller, "drag", drag)
+        if dragged is not None:
+            refuse_where(~np.isfinite(dragged), dragged, f"{caller}: drag must be finite")
+            refuse_where(dragged < 0, dragged, f"{caller}: drag must not be negative")
+            dragged = read_only(_column(caller, "drag", dragged, chain.size)) if dragged.any() else None
+        _set(self, "drag", dragged)
         _set(self, "fluid", fluid)
         _set(self, "_inverted", _flags(caller, inverted, chain.size))
         _set(self, "_at", (STANDARD_GRAVITY, self._made(STANDARD_GRAVITY)))  # what is wrong is said now
@@ -567,12 +581,12 @@ class Rig(System):
 
     @property
     def is_damped(self) -> bool:
-        """Whether the support or a pin has a dashpot: motions then decay."""
-        return self.support.damping > 0 or (self.pins is not None and "damping" in self.pins._given)
+        """Whether the support or a pin has a dashpot, or a link linear drag: motions then decay."""
+        return self.support.damping > 0 or self.drag is not None or (self.pins is not None and "damping" in self.pins._given)
 
     @property
     def _has_pins(self) -> bool:
-        """Whether a pin has a spring, or the support or a pin a dashpot."""
+        """Whether a pin has a spring, or anything damps motions."""
         return self.pins is not None or self.is_damped
 
     _kind = "rig"
@@ -612,7 +626,7 @@ class Rig(System):
 
     def _needs_gravity(self) -> bool:
         wheels = self.flywheels is not None and (self.by_mass or "spin" in self.flywheels._given)
-        springs = self.support.damping > 0 or 0 < self.support.stiffness < math.inf or self.pins is not None
+        springs = 0 < self.support.stiffness < math.inf or self._has_pins
         return wheels or (self.by_mass and springs)
 
     def _made(self, gravity: float) -> _core.Rig:
@@ -627,6 +641,8 @@ class Rig(System):
         if self.pins is not None:
             for name, value in self.pins._given.items():
                 columns[f"pin_{name}"] = _column(caller, f"pins {name}", value, size)
+        if self.drag is not None:
+            columns["drag"] = self.drag
         return _core.Rig(
             self.chain._compiled,
             stiffness=self.support.stiffness,
@@ -655,6 +671,7 @@ class Rig(System):
             (np.count_nonzero(self.inverted), "inverted"),
             (np.count_nonzero(self._momentum(STANDARD_GRAVITY)), "with momentum"),
             (np.count_nonzero(borne), f"in {self.fluid} fluid"),
+            (0 if self.drag is None else np.count_nonzero(np.broadcast_to(self.drag, self.size)), "with linear drag"),
         )
         words = [f"{count:,} link{'s' if count > 1 else ''} {what}" for count, what in counts if count]
         at_pins = {what: int(np.count_nonzero(self._pin(name))) for name, what in _AT_PINS.items()}
@@ -692,11 +709,11 @@ class Rig(System):
         """Return the parts that make up the rig, for pickles and copies with one part changed."""
         fittings = (self.support, self.flywheels, self.displaced, self.pins)
         given = tuple(None if fitting is None else dict(fitting._given) for fitting in fittings)
-        return self.chain, *given, self.fluid, self._inverted
+        return self.chain, *given, self.fluid, self._inverted, self.drag
 
     @classmethod
     def _from_state(cls, state: Any) -> Rig:
-        chain, support, flywheels, displaced, pins, fluid, inverted = state
+        chain, support, flywheels, displaced, pins, fluid, inverted, drag = state
         return cls(
             chain,
             support=Support(**support),
@@ -705,17 +722,18 @@ class Rig(System):
             pins=None if pins is None else Pin(**pins),
             fluid=fluid,
             inverted=False if inverted is None else inverted,
+            drag=drag,
         )
 
     def _data(self) -> dict[str, Any]:
-        _, *given, fluid, inverted = self._state()
+        _, *given, fluid, inverted, drag = self._state()
         names = ("support", "flywheels", "displaced", "pins")
         fittings = {
             name: {key: plain(value) for key, value in fitting.items()}
             for name, fitting in zip(names, given, strict=True)
             if fitting
         }
-        more = {} if inverted is None else {"inverted": plain(inverted)}
+        more = {name: plain(value) for name, value in (("inverted", inverted), ("drag", drag)) if value is not None}
         return {"chain": self.chain.to_dict(), **fittings, "fluid": fluid, **more}
 
     @classmethod
@@ -723,7 +741,7 @@ class Rig(System):
         kinds = {"support": Support, "flywheels": Flywheel, "displaced": Displaced, "pins": Pin}
         fittings: dict[str, Any] = {name: kind(**data[name]) for name, kind in kinds.items() if name in data}
         chain = Chain.from_dict(data["chain"])
-        return cls(chain, **fittings, fluid=data["fluid"], inverted=data.get("inverted", False))
+        return cls(chain, **fittings, fluid=data["fluid"], inverted=data.get("inverted", False), drag=data.get("drag"))
 
 
 _HEAVY = ("mass", "weight", "added_mass", "added_weight")

@@ -20,7 +20,9 @@ Exponents have one digit, because pint evaluates any expression, and ``m**9**9**
 
 _KINDS = {
     "a length": ("m", "39.1396 inch"),
+    "an area": ("m^2", "40 cm^2"),
     "a mass": ("kg", "2 kg"),
+    "a mass per volume": ("kg/m^3", "1.225 kg/m^3"),
     "a force": ("N", "20 N"),
     "an acceleration": ("m/s^2", "9.81 m/s^2"),
     "a force per length": ("N/m", "2 kN/m"),
@@ -36,15 +38,17 @@ _KINDS = {
     "a fraction": ("", "1 %"),
 }
 _NAMES = {
-    "a length": "length centroid radius_of_gyration pendulum_length length_in_proportion conical_height min_conical_height span radius "
+    "a length": "length diameter centroid radius_of_gyration pendulum_length length_in_proportion conical_height min_conical_height span radius "
     "tip_radius support_radius offset support_offset arc_length displaced_centroid displaced_radius_of_gyration "
     "height x arm thread rod distance deflection tip slack sag arc place pendulum lift "
     "pivot_offset lower_arm joint sleeve_offset sleeve_arm",
+    "an area": "area",
     "a mass": "mass added_mass tip_mass ball_mass sleeve_mass",
+    "a mass per volume": "air_density",
     "a force": "weight added_weight tip_weight tension top_tension force support_force friction spring_force",
     "an acceleration": "gravity acceleration support_acceleration",
     "a force per length": "stiffness spring_stiffness",
-    "a force over a speed": "damping",
+    "a force over a speed": "damping drag",
     "a torque over an angle": "pin_stiffness",
     "a torque over a rate of angle": "pin_damping",
     "an angular speed": "angular_speed angle_rate spin max_angular_speed low_speed high_speed",

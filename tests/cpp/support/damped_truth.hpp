@@ -66,6 +66,11 @@ struct DampedTruth {
             for (std::size_t k = 0; k < size; ++k)
                 for (std::size_t l = 0; l < size; ++l) M[k][l] += W * centre[k] * centre[l] / gravity;
             M[m][m] += W * quad(link.gyration_ratio) * a * a / gravity;
+            const Quad drag = quad(rig.drag(i));  // on the velocity of the middle, and about it
+            centre[m] = sign * a / 2;
+            for (std::size_t k = 0; k < size; ++k)
+                for (std::size_t l = 0; l < size; ++l) C[k][l] += drag * centre[k] * centre[l];
+            C[m][m] += drag * a * a / 12;
             K[m][m] += sign * (W * link.centroid + a * hung);
             G[m][m] += sign * quad(rig.flywheel(i).momentum);
             hung += W;
@@ -117,7 +122,7 @@ struct DampedTruth {
 };
 
 struct DampedOptions {
-    bool damped = true, momentum = false, extreme = false, stands = false;
+    bool damped = true, momentum = false, extreme = false, stands = false, drag = false;
     Index most = 12;
 };
 
@@ -139,6 +144,7 @@ inline Rig random_rig(Random& random, const DampedOptions& options) {
     for (Index m = 0; m < n; ++m) {
         const double k = stiffness();
         with.pins.push_back({k * weight * length * (random() < 0.7 ? 1.0 : 0.0), damping(std::sqrt(k)) * weight * length});
+        if (options.drag) with.drag.push_back(random() < 0.7 ? damping(1) * weight / length : 0.0);
         if (options.momentum) with.flywheels.push_back({random.between(-3, 3) * weight * length * time, 0});
         with.posture.push_back(options.stands && random() < 0.5 ? Posture::stands : Posture::hangs);
     }

@@ -81,7 +81,7 @@ void RiggedLinks::add_support(Shape& shape, const Fine& height, const Found& fou
 /// tension, or the moment of the moving weight of the lowest link, cannot be distinguished from 0.
 REVCHAIN_LAZY
 RiggedLinks rigged_links(const Rig& rig, const Fine& height, const Fine& speed) {
-    if (rig.has_pin_springs() || rig.support().damping.high > 0)
+    if (rig.has_pin_springs() || rig.has_drag() || rig.support().damping.high > 0)
         detail::require_no_pins("steady_shapes", "steady shapes", rig, false);
     RiggedLinks result;
     result.units = rig.chain().units();

@@ -150,12 +150,13 @@ F dot(const std::vector<F>& x, const std::vector<F>& y) {
     return sum;
 }
 
-/// Returns true if the last unknown is the offset of a free trolley without a dashpot.
+/// Returns true if the last unknown is the offset of a free trolley without a dashpot or drag.
 REVCHAIN_LAZY
 bool keeps_momentum(const DampedPencil& pencil) {
     const Wide<double> none(0.0);
     const Joint<Wide<double>>& end = pencil.joints.back();
-    return end.lever == none && end.damping == none && pencil.elements.back().stiffness == none;
+    return end.lever == none && pencil.elements.back().stiffness == none &&
+           damping_together(pencil) == none;
 }
 
 /// Sets the offset of such a trolley so that the momentum is 0. For slow motions its equation of

@@ -33,16 +33,27 @@ struct MovedTogether {
         for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
             const SignedElement<Wide<double>>& e = pencil.elements[m];
             const Joint<Wide<double>>& joint = pencil.joints[m];
-            const F at_lower = force + x.mass * F(e.lower + e.cross);
+            const Carried<F> part =
+                carried(e, joint, x, [](const Wide<double>& y) { return F(y); });
+            const F at_lower = force + (part.lower + part.cross);
             if (joint.lever == zero) {
                 force = at_lower + x.stiffness * F(e.stiffness) + x.damping * F(joint.damping);
                 load.push_back(force);
                 return;
             }
             load.push_back(F(joint.lever) * at_lower);
-            force = at_lower + x.mass * F(e.cross + e.upper);
+            force = at_lower + (part.cross + part.upper);
         }
     }
 };
+
+/// Returns the damping of a motion of all pins together.
+inline Wide<double> damping_together(const DampedPencil& pencil) {
+    Wide<double> sum = pencil.joints.back().lever == Wide<double>(0.0)
+                           ? pencil.joints.back().damping
+                           : Wide<double>(0.0);
+    for (const Joint<Wide<double>>& joint : pencil.joints) sum = sum + Wide<double>(6.0) * joint.drag;
+    return sum;
+}
 
 }  // namespace revchain::pencil
