@@ -104,8 +104,8 @@ void bind_cord(py::module_& module) {
         .def_readonly_static("least_place", &LineDensity::least_place)
         .def(py::pickle(&get_state, &set_state));
     py::class_<Cord>(module, "Cord", "A flexible cord hung from one end; immutable.")
-        .def(py::init(&cord_of), "length"_a, "weight"_a.none(true), "density"_a, "tip_weight"_a,
-             "weights"_a, "tip_centroid"_a, "tip_radius_of_gyration"_a)
+        .def(py::init(&cord_of), "length"_a, "weight"_a.none(true), "density"_a, "tip_weight"_a, "weights"_a,
+             "tip_centroid"_a, "tip_radius_of_gyration"_a)
         .def_property_readonly("length", &Cord::length)
         .def_property_readonly("weight", &Cord::weight)
         .def_property_readonly("tip_weight", &Cord::tip_weight)

@@ -29,8 +29,8 @@ void bind_drag(py::module_& module) {
         [](const revchain::Rig& rig, const Array& coefficient, const Array& diameter, const Array& area,
            const Array& body_coefficient, double density, double angular_speed, std::optional<int> half_waves,
            double gravity, double force) {
-            const revchain::Drag drag{numbers(coefficient), numbers(diameter), numbers(area),
-                                      numbers(body_coefficient), density / force};
+            const revchain::Drag drag{numbers(coefficient), numbers(diameter), numbers(area), numbers(body_coefficient),
+                                      density / force};
             return without_lock([&] {
                 return revchain::drag_shape(
                     rig, drag, {.angular_speed = angular_speed, .half_waves = half_waves, .gravity = gravity});

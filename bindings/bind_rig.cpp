@@ -32,11 +32,11 @@ Rig make_rig(const Chain<double>& chain, double stiffness, double carriage_weigh
              const std::optional<Array>& driven, const std::optional<Array>& displaced_weight,
              const std::optional<Array>& displaced_centroid, const std::optional<Array>& displaced_radius_of_gyration,
              const std::optional<Array>& added_weight, bool turning_fluid, double force, double gravity,
-             double support_damping, const std::optional<Array>& pin_stiffness,
-             const std::optional<Array>& pin_damping, const std::optional<Array>& drag) {
-    for (const auto* array : {&momentum, &axial_moment, &wheel_weight, &wheel_radius_of_gyration, &spin, &driven,
-                              &displaced_weight, &displaced_centroid, &displaced_radius_of_gyration, &added_weight,
-                              &pin_stiffness, &pin_damping, &drag})
+             double support_damping, const std::optional<Array>& pin_stiffness, const std::optional<Array>& pin_damping,
+             const std::optional<Array>& drag) {
+    for (const auto* array :
+         {&momentum, &axial_moment, &wheel_weight, &wheel_radius_of_gyration, &spin, &driven, &displaced_weight,
+          &displaced_centroid, &displaced_radius_of_gyration, &added_weight, &pin_stiffness, &pin_damping, &drag})
         if (*array && (*array)->ndim() > 0 && (*array)->size() != chain.size())
             revchain::detail::throw_invalid("Rig", "arrays must have one number for each link", (*array)->size());
     if (standing && standing->size() != chain.size())

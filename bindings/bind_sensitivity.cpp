@@ -136,8 +136,8 @@ void bind_sensitivity(py::module_& module) {
     module.def("bell_and_clapper", &bell_and_clapper, "chain"_a, "joint"_a, "inverted"_a);
     module.def("bell_and_clapper_with_ratio", &revchain::bell_and_clapper_with_ratio<double>, "chain"_a, "ratio"_a,
                "joint"_a, "inverted"_a);
-    module.def("first_strike", &first_strike, "present"_a, "inverted"_a, "clearance"_a, "amplitude"_a, "clapper_angle"_a,
-               "gravity"_a);
+    module.def("first_strike", &first_strike, "present"_a, "inverted"_a, "clearance"_a, "amplitude"_a,
+               "clapper_angle"_a, "gravity"_a);
     module.def("rig_sensitivity", &rig_sensitivity, "rig"_a, "angular_speed"_a, "offset"_a, "gravity"_a);
     module.def("stiffness_for_speed", &revchain::stiffness_for_speed, "rig"_a, "angular_speed"_a, "gravity"_a);
     module.def("momentum_for_speed", &revchain::momentum_for_speed, "rig"_a, "link"_a, "angular_speed"_a, "gravity"_a);

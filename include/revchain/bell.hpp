@@ -55,9 +55,9 @@ struct BellAndClapper {
     /// h1 - (m + 1) l1 - m (a2 - l2), m = W2 h2/(W1 a2): a length, 0 if one piece, §8 (16). If one
     /// of the two is inverted, it is h1 - (m + 1) l1 + m (a2 - l2)
     T mismatch;
-    ByBellDatum<T> present;     ///< the data
+    ByBellDatum<T> present;          ///< the data
     std::array<bool, 2> inverted{};  ///< whether clapper and bell stand on their upper pins
-    ByBellDatum<T> derivative;  ///< of the first inclination ratio with respect to each datum
+    ByBellDatum<T> derivative;       ///< of the first inclination ratio with respect to each datum
 };
 
 /// Both modes of a bell (upper link) and its clapper (lower link), how far they are from one piece,
@@ -80,8 +80,7 @@ template <Real T>
 /// and a joint of 0.
 template <Real T>
 [[nodiscard]] ByBellDatum<T> bell_and_clapper_with_ratio(
-    const Chain<T>& chain, const T& ratio,
-    const std::optional<std::type_identity_t<T>>& joint = {},
+    const Chain<T>& chain, const T& ratio, const std::optional<std::type_identity_t<T>>& joint = {},
     const std::array<bool, 2>& inverted = {});
 
 /// How a swing ends. `turns`: the bell comes to rest before the clapper strikes. `at_rest`: bell and

@@ -60,9 +60,9 @@ struct DragShape {
     /// (N) direction in which each link leads away from its upper pin, from outward (x) towards the
     /// sense of motion, in (-pi, pi], rad; negative: the link trails
     Vector<double> azimuth;
-    Vector<double> tension;     ///< (N) magnitude of the reaction at each link's upper pin
-    double torque = 0;          ///< about the axis, in the sense of motion; weight times length
-    double power = 0;           ///< torque times speed
+    Vector<double> tension;  ///< (N) magnitude of the reaction at each link's upper pin
+    double torque = 0;       ///< about the axis, in the sense of motion; weight times length
+    double power = 0;        ///< torque times speed
     /// 1 if `status` is success. Else the shape is that with this share of the drag; from rest,
     /// with this share of the squared speed.
     double factor = 0;

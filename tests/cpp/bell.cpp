@@ -155,14 +155,16 @@ TEST_CASE("a clapper pinned in the axle or above it", "[public]") {
             const double off = (x * (500 * 0.2 + 18 * a) - M11) * (x * 18 * 0.52 - M22) - M12 * M12;
             CAPTURE(a, k, x, r);
             CHECK(std::abs(off) <= 1e-13 * M11 * M22);
-            if (a != 0) CHECK(std::abs(x * 18 * 0.52 * r - M12 - M22 * r) <= 1e-12 * (std::abs(M12) + std::abs(M22 * r)));
+            if (a != 0)
+                CHECK(std::abs(x * 18 * 0.52 * r - M12 - M22 * r) <= 1e-12 * (std::abs(M12) + std::abs(M22 * r)));
         }
         if (a == 0) continue;
         for (const double ratio : {0.7, 1.0, 1.8}) {  // the data that give it do
             const auto values = revchain::bell_and_clapper_with_ratio<double>(chain, ratio, a);
             if (!std::isnan(values[4])) {
                 CHECK(values[4] * a > 0);
-                CHECK(std::abs(revchain::bell_and_clapper<double>(chain, values[4]).inclination_ratio[0] - ratio) <= 1e-9);
+                CHECK(std::abs(revchain::bell_and_clapper<double>(chain, values[4]).inclination_ratio[0] - ratio) <=
+                      1e-9);
             }
         }
         // derivative by the joint
@@ -198,8 +200,12 @@ TEST_CASE("bells and clappers that stand on their pins", "[linear]") {
     int given = 0, falling = 0;
     for (int i = 0; i < support::by_tier(300, 10'000); ++i) {
         const double a = random.log_between(0.01, 1) * (random.between(0, 1) < 0.5 ? 1 : -1);
-        const Numbers x{random.log_between(0.1, 100), random.between(0.1, 1),    random.between(0.01, 0.5),
-                        random.log_between(1, 1e3),   a,                         random.between(0.02, 0.6),
+        const Numbers x{random.log_between(0.1, 100),
+                        random.between(0.1, 1),
+                        random.between(0.01, 0.5),
+                        random.log_between(1, 1e3),
+                        a,
+                        random.between(0.02, 0.6),
                         random.between(0.05, 1)};
         const std::array<bool, 2> inverted{random.between(0, 1) < 0.5, random.between(0, 1) < 0.5};
         const auto numbers = [&](const Numbers& y, const std::optional<double>& ratio = {}) {

@@ -135,9 +135,9 @@ TEST_CASE("two plummets on an arm in a driven plane: the second derivatives of t
         const double w0 = random.log_between(0.1, 10), w1 = random.log_between(0.1, 10), b = random.log_between(0.5, 5);
         const Rig rig(Chain<double>({plummet(w0, a0), plummet(w1, a1)}), {.support = revchain::carried_round(b)});
         const double unit = std::sqrt(g / (a0 + a1 + b));
-        const Campbell found = revchain::campbell(rig, {.angular_speed = speeds(0.2 * unit, 3 * unit, 9),
-                                                        .orders = {1, 2, 3},
-                                                        .frame = StabilityFrame::driven});
+        const Campbell found = revchain::campbell(
+            rig,
+            {.angular_speed = speeds(0.2 * unit, 3 * unit, 9), .orders = {1, 2, 3}, .frame = StabilityFrame::driven});
         for (const auto& one : found.crossings) {
             const R height = g / (R(one.angular_speed) * one.angular_speed);
             double farthest = -1;
@@ -187,8 +187,8 @@ TEST_CASE("a frequency that jumps at the limit speed of a mast meets no multiple
     for (const auto& one : found.crossings) {
         CHECK(std::abs(one.angular_speed - limit) > 1);
         const double next = one.angular_speed * (1 + 1e-9);
-        const Campbell at = revchain::campbell(
-            rig, {.angular_speed = {one.angular_speed, next}, .frame = StabilityFrame::driven});
+        const Campbell at =
+            revchain::campbell(rig, {.angular_speed = {one.angular_speed, next}, .frame = StabilityFrame::driven});
         const double multiple = static_cast<double>(one.order) * one.angular_speed;
         CHECK(std::abs(at.frequency(0, one.motion - 1) / multiple - 1) <= 1e-12);
     }

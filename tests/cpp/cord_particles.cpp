@@ -28,10 +28,11 @@ Chain<double> links(Index count, double length, double weight, const std::map<do
             if (std::abs(s - at) < each / 2) hung += w;
         const double whole = rod + hung, centroid = (rod * each / 2 + hung * each) / whole;
         const double second = (rod * each * each / 3 + hung * each * each) / whole;
-        made.push_back({.weight = whole,
-                        .length = each,
-                        .centroid = centroid,
-                        .gyration_ratio = revchain::Wide<double>(std::max(0.0, second - centroid * centroid) / (each * each))});
+        made.push_back(
+            {.weight = whole,
+             .length = each,
+             .centroid = centroid,
+             .gyration_ratio = revchain::Wide<double>(std::max(0.0, second - centroid * centroid) / (each * each))});
     }
     return Chain<double>(made);
 }
@@ -201,14 +202,16 @@ TEST_CASE("cord: branches with particles pass through the shapes at a speed") {
     CHECK(std::abs(on[0].tip_offset / shape.tip_offset - 1) < 1e-10);
     // sums over the cord by Simpson's rule on pieces, the particles apart
     double inertia = 0.2 * shape(0).offset * shape(0).offset, sink = 0.2 * shape(0).height;
-    for (const auto& [s, w] : cord.weights())
-        inertia += w * std::pow(shape(s).offset, 2), sink += w * shape(s).height;
+    for (const auto& [s, w] : cord.weights()) inertia += w * std::pow(shape(s).offset, 2), sink += w * shape(s).height;
     const std::vector<double> ends{0, 0.5, 1.25, 2.0};
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
         constexpr int parts = 2000;
         for (int k = 0; k <= parts; ++k) {
             const double s = ends[i] + (ends[i + 1] - ends[i]) * k / parts;
-            const double w = (k == 0 || k == parts ? 1 : k % 2 == 1 ? 4 : 2) * (ends[i + 1] - ends[i]) / (3.0 * parts) * 0.3;
+            const double w = (k == 0 || k == parts ? 1
+                              : k % 2 == 1         ? 4
+                                                   : 2) *
+                             (ends[i + 1] - ends[i]) / (3.0 * parts) * 0.3;
             inertia += w * std::pow(shape(s).offset, 2), sink += w * shape(s).height;
         }
     }
@@ -217,7 +220,7 @@ TEST_CASE("cord: branches with particles pass through the shapes at a speed") {
     const revchain::finite::Path path(kind, shape.tip_offset, {.crossings = 2, .with_change = false}, energies);
     const double unit = cord.line_weight() * height;
     CHECK(std::abs(unit * height * height * energies.inertia() / inertia - 1) < 1e-10);
-    CHECK(std::abs(unit * height * energies.potential() / (sink) - 1) < 1e-10);
+    CHECK(std::abs(unit * height * energies.potential() / (sink)-1) < 1e-10);
 }
 
 TEST_CASE("cord: a bob is the lowest link of a chain") {
@@ -227,8 +230,10 @@ TEST_CASE("cord: a bob is the lowest link of a chain") {
     {
         constexpr Index count = 200;
         const double lever = h + k * k / h;
-        std::vector<Link<double>> made{
-            {.weight = 0.5, .length = 2 * h, .centroid = h, .gyration_ratio = revchain::Wide<double>(k * k / (4 * h * h))}};
+        std::vector<Link<double>> made{{.weight = 0.5,
+                                        .length = 2 * h,
+                                        .centroid = h,
+                                        .gyration_ratio = revchain::Wide<double>(k * k / (4 * h * h))}};
         const double each = 1.0 / static_cast<double>(count);
         for (Index i = 0; i < count; ++i)
             made.push_back({.weight = 0.3 * each,
@@ -238,7 +243,8 @@ TEST_CASE("cord: a bob is the lowest link of a chain") {
         const auto found = revchain::modes(Chain<double>(made), {.count = 5});
         for (Index j = 0; j < 5; ++j) {
             CHECK(std::abs(found.conical_height[j] / modes.conical_height[j] - 1) < 1e-3);
-            CHECK(std::abs(modes.bob_slope(j) + 1 / (modes.conical_height[j] - lever)) < 1e-9 * std::abs(modes.bob_slope(j)));
+            CHECK(std::abs(modes.bob_slope(j) + 1 / (modes.conical_height[j] - lever)) <
+                  1e-9 * std::abs(modes.bob_slope(j)));
             CHECK(modes.offset(j, 0.0) == 1);
         }
     }
@@ -249,7 +255,8 @@ TEST_CASE("cord: a bob is the lowest link of a chain") {
     }
     // a bob of no size is a particle
     const auto point = revchain::modes(Cord(1.0, {.weight = 0.3, .tip_weight = 0.5}), {.count = 5});
-    const auto small = revchain::modes(Cord(1.0, {.weight = 0.3, .tip_weight = 0.5, .tip_centroid = 1e-13}), {.count = 5});
+    const auto small =
+        revchain::modes(Cord(1.0, {.weight = 0.3, .tip_weight = 0.5, .tip_centroid = 1e-13}), {.count = 5});
     for (Index j = 0; j < 5; ++j) CHECK(std::abs(small.conical_height[j] / point.conical_height[j] - 1) < 1e-11);
     CHECK_THROWS_AS(point.bob_slope(0), revchain::InvalidArgument);
     CHECK_THROWS_AS(revchain::steady_shapes(cord, {.angular_speed = 9.0}), revchain::InvalidArgument);

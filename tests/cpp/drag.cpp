@@ -33,7 +33,8 @@ double power_of_drag(const Rig& rig, const Drag& air, const DragShape& shape, do
             };
             const double pressure = air.density / 2;
             for (int k = 0; k < parts; ++k)
-                power += pressure * of(air.coefficient, m) * of(air.diameter, m) * a / parts * moved(a * (k + 0.5) / parts, true);
+                power += pressure * of(air.coefficient, m) * of(air.diameter, m) * a / parts *
+                         moved(a * (k + 0.5) / parts, true);
             power += pressure * of(air.coefficient, m) * of(air.area, m) * moved(rig.chain().link(m).centroid, false);
         }
         return power;
@@ -52,14 +53,17 @@ TEST_CASE("random carried chains: torque from the force on the support, power fr
         double length = 0, weight = 0;
         for (Index m = 0; m < n; ++m) {
             const double a = random.log_between(0.1, 10), w = random.log_between(0.01, 100);
-            links.push_back(compound_pendulum<double>(
-                {.weight = w, .length = a, .centroid = a * random.between(0.05, 1.5), .radius_of_gyration = a * random()}));
+            links.push_back(compound_pendulum<double>({.weight = w,
+                                                       .length = a,
+                                                       .centroid = a * random.between(0.05, 1.5),
+                                                       .radius_of_gyration = a * random()}));
             length += a, weight += w;
         }
         const double speed = std::sqrt(9.81 / length) * random.log_between(0.3, 5);
         const Rig rig(Chain<double>(links), {.support = carried_round(length * random.log_between(0.03, 3))});
         const double strength = weight / 9.81 / length * random.log_between(1e-3, 10);
-        const Drag air{.coefficient = {1.1}, .diameter = {strength / length}, .area = {strength / double(n) * random()}};
+        const Drag air{
+            .coefficient = {1.1}, .diameter = {strength / length}, .area = {strength / double(n) * random()}};
         const DragShape shape = drag_shape(rig, air, {.angular_speed = speed, .gravity = 9.81});
         CAPTURE(k, n, speed, to_string(shape.status), shape.factor, shape.folds);
         if (shape.status != DragStatus::success) continue;
@@ -99,12 +103,13 @@ TEST_CASE("a fold in the drag is met at one place, from every drag beyond it", "
     const Rig rig(Chain<double>::uniform_rods(10, 3.0, 9.81), {.support = carried_round(0.5)});
     double first = 0;
     for (const double diameter : {0.1, 1.0, 100.0}) {
-        const DragShape shape = drag_shape(rig, {.coefficient = {1.2}, .diameter = {diameter}},
-                                           {.angular_speed = 10.0, .half_waves = 1});
+        const DragShape shape =
+            drag_shape(rig, {.coefficient = {1.2}, .diameter = {diameter}}, {.angular_speed = 10.0, .half_waves = 1});
         REQUIRE(shape.status == DragStatus::fold);
         if (first == 0) first = shape.factor * diameter;
         CHECK(std::abs(shape.factor * diameter / first - 1) <= 1e-6);
-        const DragShape rested = drag_shape(rig, {.coefficient = {1.2}, .diameter = {diameter}}, {.angular_speed = 10.0});
+        const DragShape rested =
+            drag_shape(rig, {.coefficient = {1.2}, .diameter = {diameter}}, {.angular_speed = 10.0});
         CHECK(rested.status == DragStatus::success);
         CHECK(rested.residual <= 1e-15);
     }
@@ -124,7 +129,9 @@ TEST_CASE("what shapes with drag refuse", "[questions]") {
     CHECK_THROWS_WITH(asked(rig, {.coefficient = {-1.0}}), Contains("coefficient") && Contains("not negative"));
     CHECK_THROWS_WITH(asked(Rig(chain, {.support = carried_round(0.5), .pins = {{.stiffness = 1}, {}}}), air),
                       Contains("springs at pins"));
-    CHECK_THROWS_WITH(asked(Rig(chain, {.support = carried_round(0.5), .fluid = Fluid::turning}), air), Contains("no drag"));
-    CHECK_THROWS_WITH(asked(Rig(chain, {.support = {.stiffness = 0.0, .carriage_weight = 1}}), air), Contains("on the axis"));
+    CHECK_THROWS_WITH(asked(Rig(chain, {.support = carried_round(0.5), .fluid = Fluid::turning}), air),
+                      Contains("no drag"));
+    CHECK_THROWS_WITH(asked(Rig(chain, {.support = {.stiffness = 0.0, .carriage_weight = 1}}), air),
+                      Contains("on the axis"));
     CHECK_THROWS_WITH(drag_shape(rig, air, {.angular_speed = 1.0, .half_waves = 7}), Contains("half waves"));
 }

@@ -23,7 +23,9 @@ std::vector<Z> exact_offsets(const Rig& rig, double gravity, double n, By by, do
     const Support& support = rig.support();
     const std::size_t links = truth.links;
     const Z s{0, n};
-    const Quad radius = by == By::radius ? Quad(amount) : by == By::acceleration ? -Quad(amount) / Quad(n) / Quad(n) : Quad(0);
+    const Quad radius = by == By::radius         ? Quad(amount)
+                        : by == By::acceleration ? -Quad(amount) / Quad(n) / Quad(n)
+                                                 : Quad(0);
     const bool itself = by != By::force && (support.is_firm() || support.is_free());
     const std::size_t unknowns = links + (itself ? 0 : 1);
     std::vector<std::vector<Z>> Q(unknowns, std::vector<Z>(unknowns + 1));
@@ -49,8 +51,9 @@ Checked check(Index count, std::uint64_t seed, const support::DampedOptions& opt
     for (Index k = 0; k < count; ++k) {
         const Rig rig = random_rig(random, options);
         const double own = std::sqrt(9.81 / rig.chain().total_length());
-        const By by = rig.support().is_firm() ? (random() < 0.5 ? By::radius : By::acceleration)
-                                              : std::array{By::radius, By::acceleration, By::force}[std::size_t(random() * 2.99)];
+        const By by = rig.support().is_firm()
+                          ? (random() < 0.5 ? By::radius : By::acceleration)
+                          : std::array{By::radius, By::acceleration, By::force}[std::size_t(random() * 2.99)];
         const double sense = options.momentum && random() < 0.5 ? -1 : 1, n = sense * own * random.log_between(0.1, 30);
         const double amount = random.between(0.5, 2);
         ForcedMotionOptions with{.angular_speed = {n}, .gravity = 9.81};
@@ -81,8 +84,9 @@ TEST_CASE("random rigs driven by radius, acceleration and force: offsets to the 
 }
 
 TEST_CASE("10,000 random rigs driven", "[.slow]") {
-    for (const Checked& each : {check(5000, 11, {}), check(2000, 12, {.momentum = true}), check(2000, 13, {.stands = true}),
-                                check(1000, 14, {.extreme = true, .most = 6}), check(5000, 15, {.drag = true})}) {
+    for (const Checked& each :
+         {check(5000, 11, {}), check(2000, 12, {.momentum = true}), check(2000, 13, {.stands = true}),
+          check(1000, 14, {.extreme = true, .most = 6}), check(5000, 15, {.drag = true})}) {
         WARN(each.rows << " rigs, " << each.poor << " estimates below a tenth of the error");
         CHECK(each.poor * 100 <= each.rows);
     }
@@ -101,12 +105,14 @@ TEST_CASE("without springs and dashpots the offsets are those of `response`", "[
                   1.2e-16 * known.offset.row(i).cwiseAbs().maxCoeff());
             CHECK(found.offset.row(i).imag().cwiseAbs().maxCoeff() == 0);
             CHECK(known.modes_below[i] == found.modes_below[i]);
-            CHECK(std::abs(known.support_force[i] - found.support_force[i]) <= 1e-13 * std::abs(known.support_force[i]));
+            CHECK(std::abs(known.support_force[i] - found.support_force[i]) <=
+                  1e-13 * std::abs(known.support_force[i]));
         }
     }
 }
 
-TEST_CASE("a trolley on a spring, pushed at the spring's own speed, stands where the load balances the push", "[linear]") {
+TEST_CASE("a trolley on a spring, pushed at the spring's own speed, stands where the load balances the push",
+          "[linear]") {
     const double k = 4 * M_PI * M_PI, g = 9.81;  // 10 kg on k N/m, 1 kg on 2 m
     const Rig rig(Chain<double>({plummet(g, 2.0)}), {.support = horizontal_spring(k, 10 * g)});
     const auto found = forced_motion(rig, {.angular_speed = {std::sqrt(k / 10)}, .force = 1, .gravity = g});
@@ -118,7 +124,9 @@ TEST_CASE("a trolley on a spring, pushed at the spring's own speed, stands where
 TEST_CASE("resonance: none with a dashpot, said without", "[linear]") {
     const Chain<double> chain({plummet(1.0, 1.0)});
     const Rig free(chain, {}), damped(chain, {.pins = {{.damping = 1e-3}}});
-    const auto at = [](const Rig& rig) { return forced_motion(rig, {.angular_speed = {1.0}, .radius = 1, .gravity = 1}); };
+    const auto at = [](const Rig& rig) {
+        return forced_motion(rig, {.angular_speed = {1.0}, .radius = 1, .gravity = 1});
+    };
     CHECK(at(free).resonant[0] == 1);
     CHECK(std::isnan(at(free).offset(0, 0).real()));
     CHECK(std::isinf(at(free).error_estimate[0]));
@@ -130,12 +138,14 @@ TEST_CASE("resonance: none with a dashpot, said without", "[linear]") {
 TEST_CASE("what forced motion refuses", "[linear]") {
     using Catch::Matchers::Contains;
     const Rig rig(Chain<double>({plummet(1.0, 1.0)}), {});
-    CHECK_THROWS_WITH(forced_motion(rig, {.angular_speed = {1}}), Contains("give one of radius, acceleration and force"));
+    CHECK_THROWS_WITH(forced_motion(rig, {.angular_speed = {1}}),
+                      Contains("give one of radius, acceleration and force"));
     CHECK_THROWS_WITH(forced_motion(rig, {.angular_speed = {1}, .radius = 1, .force = 1}), Contains("give one of"));
     CHECK_THROWS_WITH(forced_motion(rig, {.angular_speed = {1}, .force = 1}), Contains("does not move a firm support"));
     CHECK_THROWS_WITH(forced_motion(rig, {.angular_speed = {-1}, .radius = 1}), Contains("angular speed"));
     CHECK_THROWS_WITH(forced_motion(rig, {.angular_speed = {0}, .radius = 1}), Contains("angular speed"));
     CHECK_THROWS_WITH(forced_motion(rig, {.radius = 1, .gravity = 0}), Contains("gravity"));
-    CHECK_THROWS_WITH(forced_motion(rig, {.angular_speed = {1e200}, .radius = 1}), Contains("that far from the rig's own"));
+    CHECK_THROWS_WITH(forced_motion(rig, {.angular_speed = {1e200}, .radius = 1}),
+                      Contains("that far from the rig's own"));
     CHECK_THROWS_WITH(forced_motion(rig, {.angular_speed = {1}, .radius = 1e300}), Contains("too large"));
 }

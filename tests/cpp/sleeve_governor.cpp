@@ -221,10 +221,12 @@ TEST_CASE("governors: what is refused", "[public]") {
         return SleeveGovernor(changed);
     };
     CHECK_THROWS_WITH(with([](auto& x) { x.ball_mass = 0; }), Contains("ball mass"));
-    CHECK_THROWS_WITH(with([](auto& x) { x.sleeve_mass = 1; }), Contains("needs a sleeve: give lower_arm or sleeve_arm, got 1"));
+    CHECK_THROWS_WITH(with([](auto& x) { x.sleeve_mass = 1; }),
+                      Contains("needs a sleeve: give lower_arm or sleeve_arm, got 1"));
     CHECK_THROWS_WITH(with([](auto& x) { x.lower_arm = 1, x.sleeve_arm = 1; }), Contains("not both"));
     CHECK_THROWS_WITH(with([](auto& x) { x.lower_arm = 1, x.sleeve_mass = -1; }), Contains("sleeve mass"));
-    CHECK_THROWS_WITH(with([](auto& x) { x.lower_arm = 1, x.pivot_offset = 1.5; }), Contains("long enough to reach the sleeve"));
+    CHECK_THROWS_WITH(with([](auto& x) { x.lower_arm = 1, x.pivot_offset = 1.5; }),
+                      Contains("long enough to reach the sleeve"));
     CHECK_THROWS_WITH(with([](auto& x) { x.balls = 0; }), Contains("balls must be at least 1"));
     const SleeveGovernor governor(d);
     CHECK_THROWS_WITH(governor.at(2.0), Contains("cannot reach"));

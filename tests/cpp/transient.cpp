@@ -214,9 +214,10 @@ TEST_CASE("random rigs whose support is moved: against the exponential of a matr
 }
 
 TEST_CASE("10,000 random rigs whose support is moved", "[.slow]") {
-    for (const Checked& each : {check(5000, 11, {.most = 4}), check(1500, 12, {.momentum = true, .most = 3}),
-                                check(1500, 13, {.stands = true, .most = 4}), check(1000, 14, {.damped = false, .most = 4}),
-                                check(1000, 15, {.extreme = true, .most = 3})}) {
+    for (const Checked& each :
+         {check(5000, 11, {.most = 4}), check(1500, 12, {.momentum = true, .most = 3}),
+          check(1500, 13, {.stands = true, .most = 4}), check(1000, 14, {.damped = false, .most = 4}),
+          check(1000, 15, {.extreme = true, .most = 3})}) {
         WARN(each.rows << " rows, " << each.poor << " estimates below a tenth of the error, " << each.stepped
                        << " by matrix exponentials, largest error " << each.worst);
         CHECK(each.poor * 100 <= each.rows);
@@ -228,9 +229,8 @@ TEST_CASE("a load that is accelerated for exactly one of its periods does not sw
     const Rig crane(Chain<double>({plummet(9.81, 10.0)}), {});
     for (const double share : {1.0, 0.5}) {
         const double T = share * period;
-        const auto found = transient(crane, {.time = {0, T, T + 7},
-                                             .motion = {Given::velocity, {0, T}, {0, 2}},
-                                             .gravity = 9.81});
+        const auto found =
+            transient(crane, {.time = {0, T, T + 7}, .motion = {Given::velocity, {0, T}, {0, 2}}, .gravity = 9.81});
         // half a period: twice the deflection 2 m/s / T * l/g at which the load would ride along
         CHECK(std::abs(found.sway[0] - (share == 1 ? 0 : 2 * 2 / T * 10 / 9.81)) <= 1e-14);
         CHECK(std::abs(found.offset(2, 1) - (2 * T / 2 + 14)) <= 1e-14 * 20);
@@ -279,25 +279,29 @@ TEST_CASE("pins without inertia go where they are pulled", "[linear]") {
     const Rig rig(Chain<double>({plummet(1.0, 1.0)}), {.support = horizontal_spring(1.0)});
     Vector<std::complex<double>> offset(2);
     offset << 0.2, 0.7;
-    const auto found = transient(rig, {.offset = offset,
-                                       .time = {0, 1, 3},
-                                       .motion = {Given::force, {0, 100}, {0.5, 0.5}},
-                                       .gravity = 1});
+    const auto found = transient(
+        rig, {.offset = offset, .time = {0, 1, 3}, .motion = {Given::force, {0, 100}, {0.5, 0.5}}, .gravity = 1});
     CHECK(found.projected);
     for (Index i = 0; i < 3; ++i) {
         const double t = std::array{0.0, 1.0, 3.0}[static_cast<std::size_t>(i)];
-        const double x = 0.5 - 0.3 * std::cos(t * std::sqrt(0.5)), v = 0.3 * std::sqrt(0.5) * std::sin(t * std::sqrt(0.5));
+        const double x = 0.5 - 0.3 * std::cos(t * std::sqrt(0.5)),
+                     v = 0.3 * std::sqrt(0.5) * std::sin(t * std::sqrt(0.5));
         CHECK(std::abs(found.offset(i, 0) - x) <= 1e-15);
         CHECK(std::abs(found.offset(i, 1) - (x + 0.5) / 2) <= 1e-15);
         CHECK(std::abs(found.velocity(i, 1) - v / 2) <= 1e-15);
     }
     // the far end of the spring moves: x'' = (b - x) / 2 with b = t
-    const auto moved = transient(rig, {.time = {2}, .motion = {Given::velocity, {0, 9}, {1, 1}}, .gravity = 1,});
+    const auto moved = transient(rig, {
+                                          .time = {2},
+                                          .motion = {Given::velocity, {0, 9}, {1, 1}},
+                                          .gravity = 1,
+                                      });
     const double w = std::sqrt(0.5);
     CHECK(std::abs(moved.offset(0, 0) - 2.0) <= 1e-15);  // it starts moving along
     Vector<std::complex<double>> rest = Vector<std::complex<double>>::Zero(2);
-    const auto pulled = transient(rig, {.offset = rest, .velocity = rest, .time = {2},
-                                        .motion = {Given::velocity, {0, 9}, {1, 1}}, .gravity = 1});
+    const auto pulled = transient(
+        rig,
+        {.offset = rest, .velocity = rest, .time = {2}, .motion = {Given::velocity, {0, 9}, {1, 1}}, .gravity = 1});
     CHECK(std::abs(pulled.offset(0, 0) - (2 - std::sin(2 * w) / w)) <= 1e-15);
 }
 
@@ -334,7 +338,8 @@ TEST_CASE("places in time: at rest before the first and after the last", "[linea
         }
         const auto found = transient(rig, {.time = {0, 1, 1.7, 3, 10}, .motion = motion, .gravity = 9.81});
         for (const Index i : {0, 1}) CHECK(std::abs(found.offset(i, 1)) + std::abs(found.velocity(i, 1)) <= 1e-15);
-        for (const Index i : {3, 4}) CHECK(std::abs(found.offset(i, 1) - 1.0) + std::abs(found.velocity(i, 1)) <= 2e-15);
+        for (const Index i : {3, 4})
+            CHECK(std::abs(found.offset(i, 1) - 1.0) + std::abs(found.velocity(i, 1)) <= 2e-15);
         CHECK(std::abs(found.offset(2, 1) - (1 - std::cos(M_PI * 0.35)) / 2) <= (n == 30 ? 3e-6 : 0.03));
     }
 }
@@ -361,7 +366,8 @@ TEST_CASE("sway is what is seen: heavy and critical damping, trolleys that coast
     }
     const Rig upright(Chain<double>({plummet(1.0, 1.0)}), {.posture = {Posture::stands}});
     CHECK(std::isinf(transient(upright, {.time = {0, 1}, .motion = start}).sway[0]));
-    CHECK_THROWS_WITH(transient(upright, {.time = {0, 1e4}, .motion = start}), Catch::Matchers::Contains("grows beyond all numbers"));
+    CHECK_THROWS_WITH(transient(upright, {.time = {0, 1e4}, .motion = start}),
+                      Catch::Matchers::Contains("grows beyond all numbers"));
     // undamped motions do not decay, and their phase is known as long as the estimate says
     const Rig plain(Chain<double>({plummet(g, 2.0)}), {});
     const auto late = transient(plain, {.time = {1, 1e60}, .motion = start});
@@ -389,5 +395,6 @@ TEST_CASE("what motion in time refuses", "[linear]") {
     whirl << std::complex<double>(0, 1), support << 0.0, 1.0;
     CHECK_THROWS_WITH(transient(rig, {.offset = three, .time = {0}}), Contains("a number for each pin"));
     CHECK_THROWS_WITH(transient(rig, {.offset = whirl, .time = {0}}), Contains("must be real without momentum"));
-    CHECK_THROWS_WITH(transient(rig, {.velocity = support, .time = {0}}), Contains("leave out the velocity of the support"));
+    CHECK_THROWS_WITH(transient(rig, {.velocity = support, .time = {0}}),
+                      Contains("leave out the velocity of the support"));
 }

@@ -15,8 +15,9 @@ namespace revchain::inline REVCHAIN_BUILD::detail {
 struct DampedSystem {
     RigPencil rig;
     bool momentum;  ///< the motions of one sense are no conjugates of the other's
-    bool rests;     ///< a free trolley with a dashpot or drag: it rests anywhere, and one exponent is 0
-    bool drifts;    ///< without it the momentum is constant, and its offset follows from the links'
+    bool
+        rests;  ///< a free trolley with a dashpot or drag: it rests anywhere, and one exponent is 0
+    bool drifts;  ///< without it the momentum is constant, and its offset follows from the links'
     bool inertia = false;  ///< whether M is regular: there are twice as many exponents as freedoms
 
     DampedSystem(const Rig& of, double gravity)

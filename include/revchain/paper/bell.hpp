@@ -18,8 +18,8 @@ template <Real T>
 struct BellNumbers {
     using S = Wide<T>;
     Link<T> clapper, bell;
-    T pin;                              ///< from the axle down to the clapper's pin
-    int exponent;                       ///< the chain's unit of length is 2^exponent
+    T pin;         ///< from the axle down to the clapper's pin
+    int exponent;  ///< the chain's unit of length is 2^exponent
     std::array<bool, 2> inverted;
     S clapper_sign, bell_sign, sign;    ///< -1 if inverted; their product
     S h1, square1, a2, h2, square2, f;  ///< squares of radii of gyration
@@ -27,7 +27,9 @@ struct BellNumbers {
 
     BellNumbers(std::string_view place, const Chain<T>& chain, const std::optional<T>& joint,
                 const std::array<bool, 2>& stand)
-        : inverted(stand), clapper_sign(T(stand[0] ? -1 : 1)), bell_sign(T(stand[1] ? -1 : 1)),
+        : inverted(stand),
+          clapper_sign(T(stand[0] ? -1 : 1)),
+          bell_sign(T(stand[1] ? -1 : 1)),
           sign(clapper_sign * bell_sign) {
         using std::ldexp;
         if (chain.size() != 2)
@@ -133,8 +135,8 @@ BellAndClapper<T> bell_and_clapper(const Chain<T>& chain,
     const S m1 = n.moment / n.a2, lean = n.l1 / n.a2 * r + n.sign, radius1 = sqrt(n.square1),
             radius2 = sqrt(n.square2);
     const S by_weights = n.sign * n.turning * r / n.a2 - n.f * n.h2 * lean;  // f dG/df
-    const S by_joint = (n.f * n.h2 * n.l1 - n.sign * n.turning) / (n.a2 * n.a2) * r +
-                       n.sign * (r - one);
+    const S by_joint =
+        (n.f * n.h2 * n.l1 - n.sign * n.turning) / (n.a2 * n.a2) * r + n.sign * (r - one);
     const auto weight = [&](const S& x, const T& w) { return static_cast<T>(-x / steep) / w; };
     const auto per_length = [&](const S& x) {
         return ldexp(static_cast<T>(-x / steep), -n.exponent);
@@ -184,22 +186,21 @@ ByBellDatum<T> bell_and_clapper_with_ratio(const Chain<T>& chain, const T& ratio
     const T change = may ? static_cast<T>(f / n.f) : none;
     const S rest = s * (bend * r - n.moment);
     const S square1 = n.h1 * (n.h1 * r * r + rest) / (m1 * r) - n.h1 * n.h1;
-    return {n.clapper.weight / change,
-            n.length(detail::nearest_root(
-                S(r * r - m1 * r), rest, S(-m1 * r * n.square1), n.h1,
-                [&](const S& x) {
-                    return x > zero && keeps(n.moment, S(x + n.square1 / x), n.a2);
-                })),
-            with_l1(n.h1 + square1 / n.h1, radius(square1)),
-            n.bell.weight * change,
-            n.length(detail::nearest_root(
-                S(s * (r - one)), S(n.h1 * r * r - n.l1 * r - s * n.f * n.h2),
-                S(r * (s * n.turning - n.f * n.h2 * n.l1)), n.a2,
-                [&](const S& a) { return a * n.a2 > zero && keeps(n.f * n.h2 + a, n.l1, a); })),
-            n.length(detail::nearest_root(
-                S(s * n.f * r / n.a2), S(-n.f * lean), S(s * n.f * n.square2 * r / n.a2 + fixed),
-                n.h2, [&](const S& h) { return keeps(n.f * h + n.a2, n.l1, n.a2); })),
-            with_l1(n.l1, radius((n.h2 * lean - fixed / n.f) * n.a2 / (s * r) - n.h2 * n.h2))};
+    return {
+        n.clapper.weight / change,
+        n.length(detail::nearest_root(
+            S(r * r - m1 * r), rest, S(-m1 * r * n.square1), n.h1,
+            [&](const S& x) { return x > zero && keeps(n.moment, S(x + n.square1 / x), n.a2); })),
+        with_l1(n.h1 + square1 / n.h1, radius(square1)),
+        n.bell.weight * change,
+        n.length(detail::nearest_root(
+            S(s * (r - one)), S(n.h1 * r * r - n.l1 * r - s * n.f * n.h2),
+            S(r * (s * n.turning - n.f * n.h2 * n.l1)), n.a2,
+            [&](const S& a) { return a * n.a2 > zero && keeps(n.f * n.h2 + a, n.l1, a); })),
+        n.length(detail::nearest_root(
+            S(s * n.f * r / n.a2), S(-n.f * lean), S(s * n.f * n.square2 * r / n.a2 + fixed), n.h2,
+            [&](const S& h) { return keeps(n.f * h + n.a2, n.l1, n.a2); })),
+        with_l1(n.l1, radius((n.h2 * lean - fixed / n.f) * n.a2 / (s * r) - n.h2 * n.h2))};
 }
 
 }  // namespace revchain

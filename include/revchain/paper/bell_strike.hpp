@@ -218,8 +218,8 @@ inline Strike strike_of(const BellAndClapper<double>& bell, const StrikeStart& s
     }();
     const double side = std::abs(at) == c ? std::copysign(1.0, at) : 0.0;
     double way = circle ? -1 : 0, time = 0;
-    RingingPair::State s = circle ? pair.beside_balance(at, near_balance)
-                                  : RingingPair::State{fall_from, at, 0, 0};
+    RingingPair::State s =
+        circle ? pair.beside_balance(at, near_balance) : RingingPair::State{fall_from, at, 0, 0};
     // A pair that stays one piece is a simple pendulum on its separatrix: this start is passed over.
     if (circle && pair.stays(at, near_balance, late_start)) {
         s = pair.beside_balance(at, late_start);
@@ -287,9 +287,9 @@ inline Strike first_strike(const BellAndClapper<double>& bell, const StrikeStart
                               *start.clapper_angle);
     if (start.clapper_angle && !start.amplitude &&
         std::abs(*start.clapper_angle) != start.clearance)
-        detail::throw_invalid(
-            place, "without amplitude, clapper_angle must be clearance or -clearance",
-            *start.clapper_angle);
+        detail::throw_invalid(place,
+                              "without amplitude, clapper_angle must be clearance or -clearance",
+                              *start.clapper_angle);
     if (!start.amplitude && bell.inverted[0] != bell.inverted[1])
         detail::throw_invalid(
             place, "amplitude must be given if one of bell and clapper is inverted; those inverted",

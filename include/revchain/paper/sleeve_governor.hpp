@@ -111,9 +111,8 @@ inline SleeveGovernor::SleeveGovernor(const GovernorData& data) : data_(data) {
           std::pair("spring stiffness", d.spring_stiffness),
           std::pair("spring force", d.spring_force)})
         if (!has_sleeve && value != 0)
-            throw_invalid(place,
-                          std::string(name) + " needs a sleeve: give lower_arm or sleeve_arm",
-                          value);
+            throw_invalid(
+                place, std::string(name) + " needs a sleeve: give lower_arm or sleeve_arm", value);
     if (!Motion::reaches(d, 0))
         throw_invalid(place, "lower arm must be long enough to reach the sleeve at inclination 0",
                       d.lower_arm);

@@ -227,10 +227,9 @@ ElementPencil<T, Spins, OwnErrors> rounded(const ElementPencil<S, Spins, OwnErro
         if (wide.ground) pencil.ground = narrow(*wide.ground);
         if constexpr (OwnErrors)
             for (const Joint<S>& joint : wide.joints)
-                pencil.joints.push_back({static_cast<T>(joint.lever),
-                                         static_cast<T>(joint.stiffness),
-                                         static_cast<T>(joint.damping),
-                                         static_cast<T>(joint.drag)});
+                pencil.joints.push_back(
+                    {static_cast<T>(joint.lever), static_cast<T>(joint.stiffness),
+                     static_cast<T>(joint.damping), static_cast<T>(joint.drag)});
         pencil.quadratic = wide.quadratic;
         pencil.units = wide.units;
         pencil.entry_error = static_cast<T>(wide.entry_error) + epsilon<T>();

@@ -38,9 +38,8 @@ class DragWalk {
         std::optional<DragPoint> first_fold;
         while (at.factor < 1) {
             const double last_tangent = at.factor_tangent;
-            const bool done = detail::arc_step(step, 1e300, 0.5, [&](double length) {
-                return attempt(at, length);
-            });
+            const bool done = detail::arc_step(step, 1e300, 0.5,
+                                               [&](double length) { return attempt(at, length); });
             if (at.factor_tangent * last_tangent < 0 && folds++ == 0) first_fold = at;
             if (done && at.factor > 0 && ++steps < most_steps) continue;
             if (!first_fold) return DragStatus::stalled;
@@ -136,17 +135,15 @@ finite::Figure figure_without_drag(const Rig& rig, const finite::RiggedLinks& li
     finite::Figure figure;
     figure.support.x = links.support.radius;
     const auto lead = [&](double inclination) {
-        figure.direction.push_back(
-            {std::sin(inclination), 0.0, -std::cos(inclination)});
+        figure.direction.push_back({std::sin(inclination), 0.0, -std::cos(inclination)});
     };
     if (!options.half_waves) {
         for (Index m = 0; m < rig.size(); ++m)
             figure.direction.push_back({0.0, 0.0, rig.stands(m) ? 1.0 : -1.0});
         return figure;
     }
-    const SteadyShapes found =
-        steady_shapes(rig, RigShapesOptions{.angular_speed = options.angular_speed,
-                                            .gravity = options.gravity});
+    const SteadyShapes found = steady_shapes(
+        rig, RigShapesOptions{.angular_speed = options.angular_speed, .gravity = options.gravity});
     const SteadyShape* farthest = nullptr;
     for (const SteadyShape& shape : found.shapes)
         if (shape.half_waves == *options.half_waves &&
@@ -241,8 +238,8 @@ DragShape drag_shape(const Rig& rig, const Drag& drag, const DragShapeOptions& o
         found = balance.solve(at.figure, at.factor, rule);
     }
     shape.residual = found.residual;
-    shape.error_estimate = balance.solve(at.figure, at.factor, finer).correction.largest() +
-                           2 * epsilon<double>();
+    shape.error_estimate =
+        balance.solve(at.figure, at.factor, finer).correction.largest() + 2 * epsilon<double>();
 
     const auto length = [&](const Fine& x) {
         return std::ldexp(as_double(x), units.length_exponent);
@@ -258,8 +255,8 @@ DragShape drag_shape(const Rig& rig, const Drag& drag, const DragShapeOptions& o
         const Vector3 u = as_vector(at.figure.direction[m]), pull = as_vector(found.pull[m]);
         shape.inclination[i] = std::atan2(std::hypot(u[0], u[1]), -u[2]);
         shape.azimuth[i] = std::atan2(u[1], u[0]);
-        shape.tension[i] = std::ldexp(std::hypot(pull[0], pull[1], hung[m] - pull[2]),
-                                      units.weight_exponent);
+        shape.tension[i] =
+            std::ldexp(std::hypot(pull[0], pull[1], hung[m] - pull[2]), units.weight_exponent);
     }
     const Fine3 &top = at.figure.support, &pull = found.pull[n - 1];
     shape.torque = std::ldexp(as_double(top.y * pull.x - top.x * pull.y),

@@ -49,7 +49,8 @@ struct DampedTruth {
     std::size_t links, size;
     Square K, C, G, M;
 
-    DampedTruth(const Rig& rig, double gravity, bool with_support = false) : links(static_cast<std::size_t>(rig.size())) {
+    DampedTruth(const Rig& rig, double gravity, bool with_support = false)
+        : links(static_cast<std::size_t>(rig.size())) {
         const Support& support = rig.support();
         size = links + (support.is_firm() && !with_support ? 0 : 1);
         for (Square* each : {&K, &C, &G, &M}) each->assign(size, std::vector<Quad>(size, 0));
@@ -143,7 +144,8 @@ inline Rig random_rig(Random& random, const DampedOptions& options) {
     const auto damping = [&](double k) { return options.damped ? 2 * random.log_between(1e-4, 2) * k * time : 0.0; };
     for (Index m = 0; m < n; ++m) {
         const double k = stiffness();
-        with.pins.push_back({k * weight * length * (random() < 0.7 ? 1.0 : 0.0), damping(std::sqrt(k)) * weight * length});
+        with.pins.push_back(
+            {k * weight * length * (random() < 0.7 ? 1.0 : 0.0), damping(std::sqrt(k)) * weight * length});
         if (options.drag) with.drag.push_back(random() < 0.7 ? damping(1) * weight / length : 0.0);
         if (options.momentum) with.flywheels.push_back({random.between(-3, 3) * weight * length * time, 0});
         with.posture.push_back(options.stands && random() < 0.5 ? Posture::stands : Posture::hangs);

@@ -113,7 +113,8 @@ class RingingTruth {
         if (error != nullptr) {
             *error = 0;
             for (int c = 0; c < 4; ++c)
-                *error = std::max(*error, std::abs(last[columns - 1][c] - last[columns - 2][c]) / (c < 2 ? 1 : bell / unit));
+                *error =
+                    std::max(*error, std::abs(last[columns - 1][c] - last[columns - 2][c]) / (c < 2 ? 1 : bell / unit));
         }
         return last[columns - 1];
     }

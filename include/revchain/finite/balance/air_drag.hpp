@@ -127,9 +127,9 @@ DragForces<S> drag_on_link(const LinkDrag& drag, const GaussRule& rule, const S&
             act(share, drag.line * length * weight, across + S(share) * turn);
         });
         const Vector3 direction = as_vector(u), moved = as_vector(moves);
-        add_slopes(Matrix3::Identity() - direction * direction.transpose(),
-                   -static_cast<double>(slip) * Matrix3::Identity() -
-                       direction * moved.transpose());
+        add_slopes(
+            Matrix3::Identity() - direction * direction.transpose(),
+            -static_cast<double>(slip) * Matrix3::Identity() - direction * moved.transpose());
         for (Matrix3& each : size) each.setZero();
     }
     if (drag.body != 0) {

@@ -119,12 +119,11 @@ class SpaceBalance {
             DragSlopes slopes;
             const DragForces<Fine> air =
                 drag_on_link(drag_[m], rule, link.length, upper, u, &slopes);
-            const Fine3 turned_about = link.moment * level(place[m]) -
-                                       link.length * (link.cross * level(u)),
+            const Fine3 turned_about =
+                            link.moment * level(place[m]) - link.length * (link.cross * level(u)),
                         carried = link.moment * level(place[m]) + link.rest * level(upper);
             const Fine3 hung{Fine(0.0), Fine(0.0), link.pull};
-            const Fine3 on_link =
-                pull + turning * turned_about + Fine(factor) * air.lever - hung;
+            const Fine3 on_link = pull + turning * turned_about + Fine(factor) * air.lever - hung;
             const Fine along = dot(on_link, u);
             const Vector3 off = as_vector(on_link - along * u);
             reach += as_double(link.length);
@@ -144,10 +143,8 @@ class SpaceBalance {
             given.col(0) += off, given.col(1) += as_vector(air.lever) + grows(turned_about);
             const Matrix2 inverse = pivot.inverse();
             row.load = -inverse * (row.frame.transpose() * given);
-            row.pin =
-                -inverse * (row.frame.transpose() * (below + factor * slopes.lever_pin));
-            const Matrix32 force_of_turn =
-                turned + factor * slopes.force_direction * row.frame;
+            row.pin = -inverse * (row.frame.transpose() * (below + factor * slopes.lever_pin));
+            const Matrix32 force_of_turn = turned + factor * slopes.force_direction * row.frame;
             load.col(1) += as_vector(air.force) + grows(carried);
             load += force_of_turn * row.load;
             stiffness = below + turns * as_double(link.rest) * flat + factor * slopes.force_pin +
@@ -160,8 +157,7 @@ class SpaceBalance {
             const SupportEnd<Fine>& end = links_.support;
             const Fine spring = end.stiffness / height_, held = turning * end.carriage - spring;
             const Fine3& pin = place[n];
-            const Fine x = pull.x + held * pin.x + spring * end.radius,
-                       y = pull.y + held * pin.y;
+            const Fine x = pull.x + held * pin.x + spring * end.radius, y = pull.y + held * pin.y;
             Matrix2 top = stiffness.topRows<2>(), given = load.topRows<2>();
             top.diagonal().array() += as_double(held);
             given.col(0) += Eigen::Matrix<double, 2, 1>(as_double(x), as_double(y));

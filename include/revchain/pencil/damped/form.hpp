@@ -52,7 +52,8 @@ inline Wide<double> damping_together(const DampedPencil& pencil) {
     Wide<double> sum = pencil.joints.back().lever == Wide<double>(0.0)
                            ? pencil.joints.back().damping
                            : Wide<double>(0.0);
-    for (const Joint<Wide<double>>& joint : pencil.joints) sum = sum + Wide<double>(6.0) * joint.drag;
+    for (const Joint<Wide<double>>& joint : pencil.joints)
+        sum = sum + Wide<double>(6.0) * joint.drag;
     return sum;
 }
 
