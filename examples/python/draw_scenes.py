@@ -17,7 +17,7 @@ NAMES = [
     *("bell_on_soft_frame", "swing_carousel", "chair_o_plane"),
     *("bicycle_wheels", "two_gyrostats", "moored_floats", "gyroscopes_under_float", "stokes_float", "broomstick"),
     *("acrobat", "troposkien", "plucked_chain", "crane_brakes", "crane_brakes_shaped", "hanging_cable"),
-    "clasp_on_cord",
+    *("clasp_on_cord", "whirling_machine"),
     "porter_governor",
 ]
 

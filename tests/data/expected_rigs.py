@@ -19,7 +19,7 @@ import mpmath as mp
 from mpmath import mpf
 
 # as texts, which are read with the digits of the moment
-UNITS = {"N/m": "1", "m": "1", "cm": "0.01", "mm": "0.001", "kg": "1", "g": "0.001", "t": "1000", "rpm": None}
+UNITS = {"N/m": "1", "m": "1", "cm": "0.01", "cm^2": "1e-4", "mm": "0.001", "kg": "1", "g": "0.001", "t": "1000", "rpm": None}
 UNITS |= {"kN m/rad": "1000", "kN m s/rad": "1000", "N": "1", "deg": None}
 
 

@@ -9,7 +9,8 @@ not rounded to double. Chains of up to 200 links: the dense inertia matrix in th
 eigenvalues by mpmath.eigsy with 80 digits. Longer chains: counting negative pivots of the assembled
 tridiagonal pencil with 60 digits, and bisection. Scenes with supports, standing links, flywheels, fluids,
 clamped links or weights at pins: expected_rigs.py; let go, or held at both ends: expected_motions.py;
-cords: expected_cords.py; Campbell diagrams and governors: expected_campbell.py. Cross-checks: Laguerre zeros for equal plummets,
+cords: expected_cords.py; Campbell diagrams and governors: expected_campbell.py;
+drag: expected_drag.py. Cross-checks: Laguerre zeros for equal plummets,
 the closed quadratic for two plummets, the count of the assembled pencil on both sides of each height.
 """
 
@@ -23,6 +24,7 @@ from pathlib import Path
 import mpmath as mp
 import expected_cords
 from expected_campbell import crossings, governor
+from expected_drag import ball
 from expected_motions import held, let_go
 from expected_rigs import expected_of, number
 from mpmath import mpf
@@ -202,6 +204,9 @@ def make(path):
     if "governor" in scene:
         by = "the energies of the linkage, differentiated numerically, 80 digits"
         return write(path, {**head, "by": by, "digits": 40, "modes": [], **governor(scene)})
+    if "drag" in scene.get("ask", {}):
+        by = "the balance of forces on the ball, 80 digits"
+        return write(path, {**head, "by": by, "digits": 40, "modes": [], "drag": ball(scene, 40)})
     if is_rigged(scene):
         asked = scene.get("ask", {}).get("modes", {}).get("count", DEFAULT_MODES)
         by = "Lagrange's equations in the angles, dense companion matrix, 80 digits"

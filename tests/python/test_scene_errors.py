@@ -17,6 +17,9 @@ from revchain.scenes.error import Problem
 from revchain.scenes.scene import Scene
 
 LINK = "[[links]]\nmass = 1\nlength = 1\n"
+ARM = "[support]\nradius = 2\n"
+AIR = LINK + "air_drag = {coefficient = 1, area = 1}\n"
+CORD = "[cord]\nlength = 1\nmass = 1\n"
 GOVERNOR = "[governor]\nball_mass = 2\narm = 0.3\n"
 
 # A file, and what is said of it: line and column, key, sentence. The first two dozen are those of engineers.
@@ -103,6 +106,16 @@ FILES = {
     "lower arms too short": (GOVERNOR + "lower_arm = 0.1\npivot_offset = 0.3\n", "4:1 governor.lower_arm: must be long enough to reach the sleeve at inclination 0, got 0.1"),
     "a governor that turns backwards": (GOVERNOR + "[ask.equilibria]\nangular_speed = -3\n", "5:1 ask.equilibria.angular_speed: must not be negative, got -3"),
     "a governor and links": (GOVERNOR + LINK, "1:1 give one of [[links]], [uniform_chain], [tapered_chain], [cord] or [governor], got links and governor"),
+    "drag without a speed": (ARM + AIR + "[ask.drag]\n", '7:1 ask.drag.angular_speed: is missing: write angular_speed = "12 rpm"'),
+    "drag on the axis": (LINK + 'air_drag = {coefficient = 1, area = 1}\n[ask.drag]\nangular_speed = 3\n', '5:1 ask.drag: needs a support off the axis, which carries the chain round: write [support] and radius = "2 m"'),
+    "no link has drag": (ARM + LINK + "[ask.drag]\nangular_speed = 3\n", '6:1 ask.drag: no link has drag: write air_drag = {coefficient = 1.1, diameter = "5 mm"} in a link'),
+    "drag of nothing": (ARM + LINK + "air_drag = {coefficient = 1}\n[ask.drag]\nangular_speed = 3\n", "6:1 links[0].air_drag: give a diameter of the link, an area of a body at it, or both"),
+    "negative area": (ARM + LINK + "air_drag = {coefficient = 1, area = -2}\n[ask.drag]\nangular_speed = 3\n", "6:32 links[0].air_drag.area: must not be negative, got -2.0"),
+    "area in metres": (ARM + LINK + 'air_drag = {coefficient = 1, area = "2 m"}\n[ask.drag]\nangular_speed = 3\n', '6:32 links[0].air_drag.area: '),
+    "a mass at the support": (CORD + "[[cord.masses]]\narc_length = 1\nmass = 1\n", "cord: places of masses must lie between the free end and the support"),
+    "a mass without a place": (CORD + "[[cord.masses]]\nmass = 1\n", "4:1 cord.masses[0].arc_length: is missing"),
+    "a mass without a mass": (CORD + "[[cord.masses]]\narc_length = 0.5\n", "4:1 cord.masses[0]: mass (kg) or weight (N) is missing"),
+    "a bob without weight": (CORD + "tip_centroid = 0.1\n", "cord: tip_centroid needs a tip_mass above 0 beside it"),
     "campbell without speeds": (LINK + "[ask.campbell]\n", '4:1 ask.campbell.angular_speed: is missing: write {from = "1 rpm", to = "20 rpm", steps = 39}'),
     "campbell from rest": (LINK + '[ask.campbell]\nangular_speed = {to = "9 rpm"}\n', "5:1 ask.campbell.angular_speed.from: must be positive, got 0.0"),
     "campbell at one speed": (LINK + "[ask.campbell]\nangular_speed = 3\n", "5:1 ask.campbell.angular_speed: must be two or more ascending speeds, got 3.0"),

@@ -43,6 +43,10 @@ SINGLE = {
     "balls of a governor": ({"governor": {**GOVERNOR, **STOPS}}, {"governor.balls": words(1, 2, 3)}),
     "governor at a speed": ({"governor": GOVERNOR, "ask": {"equilibria": {"angular_speed": "125 rpm"}}}, {"ask.equilibria.angular_speed": uniform(-1, 20)}),
     "campbell": ({**CAROUSEL, "ask": {"campbell": {"angular_speed": {"from": 0.3, "to": 1.5, "steps": 7}, "orders": [2, 1]}}}, {"links[0].length": uniform(-1, 8), "support.radius": uniform(0.1, 5)}),
+    "drag": (
+        {"support": {"radius": 2}, "links": [{"mass": 1, "length": 1, "air_drag": {"coefficient": 1, "area": "9 cm^2"}}] * 2, "ask": {"drag": {"angular_speed": 3.0}}},
+        {"links[0].air_drag.area": uniform(-1e-3, 0.1), "links[1].length": uniform(0.1, 3), "ask.drag.angular_speed": uniform(0.1, 5)},
+    ),
     "campbell and response": ({**CAROUSEL, "ask": {"campbell": {"angular_speed": [1.0, 1.2, 1.4]}, "response": {"angular_speed": [0.5, 0.6]}}}, {"links[0].mass": uniform(1, 100)}),
     "everything": (GYROSTAT, {"links[1].flywheel.spin": words("-300 rpm", 50.0), "links[0].length": uniform(-0.1, 1), "ask.response.angular_speed.to": uniform(5, 12)}),
 }  # fmt: skip
@@ -195,7 +199,12 @@ def of_equilibria(scene):
     return found, True
 
 
-ANSWERS = {"modes": of_modes, "shapes": of_shapes, "response": of_response, "campbell": of_campbell, "equilibria": of_equilibria}
+def of_drag(scene):
+    found = scene.drag_shape()
+    return {"drag_torque": found.torque, "drag_power": found.power, "drag_factor": found.factor}, found.status == "success"
+
+
+ANSWERS = {"drag": of_drag, "modes": of_modes, "shapes": of_shapes, "response": of_response, "campbell": of_campbell, "equilibria": of_equilibria}
 
 
 def check(study):

@@ -20,7 +20,7 @@ from .progress import counted
 from .report import Report
 
 
-MOVING = [question for question in QUESTIONS if question not in ("campbell", "equilibria")]
+MOVING = [question for question in QUESTIONS if question not in ("campbell", "drag", "equilibria")]
 
 
 @app.command(epilog=epilog("animate"))

@@ -233,6 +233,7 @@ _SHAPES = (
 )
 _MODES = "ask for its modes: revchain modes {path}"
 _CUT = "cut it into links: [tapered_chain] with count = 100 and exponent = density, instead of [cord]"
+_ARM = 'give it an arm: [support] and radius = "2 m"'
 _NO_ANSWER = {  # by question, and what hangs
     "modes": {"bent": _SHAPES},
     "explain": {"bent": _SHAPES},
@@ -241,6 +242,7 @@ _NO_ANSWER = {  # by question, and what hangs
     "swing": {"cord": _CUT, "bent": _SHAPES, "held": _MODES},
     "branches": {"cord": _CUT, "bent": _SHAPES, "held": _SHAPES},
     "campbell": {"cord": _CUT, "bent": _SHAPES, "held": _MODES},
+    "drag": {"chain": _ARM, "cord": _CUT, "bent": _SHAPES, "held": _MODES},
     "equilibria": {"chain": _MODES, "rig": _MODES, "cord": _MODES, "bent": _SHAPES, "held": _MODES},
 }
 _NAMES = {
@@ -272,6 +274,7 @@ _SUMMARIES = {
     "swing": "Find the small oscillations in a plane after release, or while the support is moved.",
     "branches": "Find the bifurcation diagram: all branches of steady shapes up to a speed.",
     "campbell": "Find the frequencies of small motion about a steady shape against the speed (Campbell diagram).",
+    "drag": "Find the steady shape of a chain that an arm carries round through still air, and the torque.",
     "equilibria": "Find the equilibria of a governor: at one speed, or those between its stops.",
 }
 for _question, _table in QUESTIONS.items():

@@ -46,6 +46,7 @@ USE: dict[str, tuple[str, str]] = {
         'revchain campbell examples/scenes/chair_o_plane.toml --angular-speed "1 rpm to 15 rpm in 29" --plot campbell.svg',
         _ON_REQUEST,
     ),
+    "drag": ('revchain drag examples/scenes/whirling_machine.toml --angular-speed "60 rpm" --plot drag.svg', _ON_REQUEST),
     "equilibria": ('revchain equilibria examples/scenes/porter_governor.toml --angular-speed "125 rpm"', _ON_REQUEST),
     "explain": ("revchain explain examples/scenes/watch_chain.toml --rtol 1e-3", "only those given by --json and --csv"),
     "animate": ("revchain animate examples/scenes/two_weights.toml --out weights.html", "the file given by --out"),

@@ -14,6 +14,7 @@ from .. import _core
 from ..closed_forms.governor import SleeveGovernor
 from ..questions.branches import branches
 from ..questions.campbell import campbell
+from ..questions.drag import drag_shape
 from ..questions.explain import explain
 from ..questions.modes import find_modes
 from ..questions.response import response
@@ -25,7 +26,7 @@ from ..systems.rig import Rig
 from ..systems.support_motion import KINDS, SupportMotion
 from .parse import choice, written
 from .system import Given, Numbers, System, Whirling
-from .tables import DEFAULT_MODES, AskCampbell, Spread, Table, fields_of, number_fields
+from .tables import DEFAULT_MODES, AskCampbell, AskDrag, Spread, Table, fields_of, number_fields
 
 
 def _equilibria(governor: SleeveGovernor, angular_speed: float | None = None) -> Any:
@@ -41,6 +42,7 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     "swing": swing,
     "branches": branches,
     "campbell": campbell,
+    "drag": drag_shape,
     "equilibria": _equilibria,
     "explain": explain,
 }
@@ -177,12 +179,22 @@ def _campbell(table: AskCampbell, given: Given, system: Whirling | None, numbers
         numbers.refuse("orders", "is an empty list: write [1, 2], or leave it out")
 
 
+def _drag(table: AskDrag, given: Given, system: Whirling | None, numbers: Numbers) -> None:
+    """Check that there is a speed and an arm."""
+    if table.angular_speed is UNSET:
+        numbers.refuse("angular_speed", 'is missing: write angular_speed = "12 rpm"')
+    if system is not None and not (isinstance(system, Rig) and system.support.radius):
+        why = "needs a support off the axis, which carries the chain round"
+        numbers.refuse("", f'{why}: write [support] and radius = "2 m"')
+
+
 _CHECKS: dict[str, Callable[[Any, Given, Whirling | None, Numbers], None]] = {
     "modes": _modes,
     "explain": _explain,
     "response": _response,
     "swing": _swing,
     "campbell": _campbell,
+    "drag": _drag,
 }
 
 

@@ -15,13 +15,14 @@ from ..systems.numbers import text
 from . import parse
 from .answer import SPEEDS, answered, arguments
 from .error import Problem, SceneError
-from .system import Numbers, System, problem_of, system_of
+from .system import Numbers, System, air_drag, problem_of, system_of
 from .tables import BESIDE, QUESTIONS, SYSTEMS, TABLES, AskExplain, AskModes, Table, Tables
 
 if TYPE_CHECKING:
     from ..closed_forms.governor import GovernorEquilibria, SleeveGovernor
     from ..results.branches import Branches
     from ..results.campbell import Campbell
+    from ..results.drag import DragShape
     from ..results.modes import Modes
     from ..results.motions import Response, Swing
     from ..results.shapes import SteadyShapes
@@ -238,6 +239,11 @@ class Scene(Tables, frozen=True, weakref=True):
         "campbell", "Campbell diagram", "Campbell", ">>> scene.campbell(angular_speed=[5.0, 6.0]).frequency.shape\n(2, 3)",
         lambda: Campbell,
     )
+    drag_shape = _asking(
+        "drag", "shape of a carried chain in air", "DragShape",
+        '>>> scene.drag_shape(angular_speed="12 rpm").status\n\'success\'', lambda: DragShape,
+        '{"links": [{"mass": 80, "length": 4, "air_drag": {"coefficient": 1, "area": 0.6}}], "support": {"radius": 3}}',
+    )
     equilibria = _asking(
         "equilibria", "equilibria of a governor at a speed, or without one the governor",
         "GovernorEquilibria or SleeveGovernor",
@@ -273,12 +279,19 @@ class Scene(Tables, frozen=True, weakref=True):
         (system, gravity), given = self._built(), None if changed else self._made().get(question)
         if given is None:
             numbers = Numbers("scene")
-            given = arguments(question, self._table(question, changed), system, numbers)
+            given = self._arguments(question, self._table(question, changed), system, numbers)
             numbers.done()
         try:
             return answered(question, system, given, gravity, progress)
         except ValueError as error:
             raise SceneError("scene", problems=[problem_of(error, "", self._bodies())]) from None
+
+    def _arguments(self, question: str, table: Table, system: System | None, numbers: Numbers) -> dict[str, Any]:
+        """The arguments of a question, from its table and, of drag, from the links."""
+        given = arguments(question, table, system, numbers)
+        if question == "drag":
+            given["drag"] = air_drag(self, given.pop("air_density", None), numbers)
+        return given
 
     def _table(self, question: str, changed: dict[str, Any]) -> Table:
         """The table of a question, with the values of `changed`."""
@@ -325,7 +338,7 @@ class Scene(Tables, frozen=True, weakref=True):
                 system, _ = self._built(source)
             except SceneError as error:
                 numbers.problems[:] = error.problems
-        found = {name: arguments(name, getattr(self.ask, name), system, numbers) for name in self.asks}
+        found = {name: self._arguments(name, getattr(self.ask, name), system, numbers) for name in self.asks}
         if not numbers.problems:
             self._made().update(found)
         return parse.without_consequences([*known, *numbers.problems])

@@ -15,6 +15,7 @@ from msgspec import UNSET, UnsetType, json
 from ..closed_forms.governor import SleeveGovernor
 from ..systems.chain import Chain
 from ..systems.cord import Cord
+from ..systems.drag import Drag
 from ..systems.held import Held
 from ..systems.rig import Displaced, Flywheel, Pin, Rig, Support
 from ..systems.units import si_value
@@ -278,7 +279,7 @@ def _check_joints(link: Link, tip: float, above: list[Link], numbers: Numbers) -
         return
     if not above:
         numbers.refuse("clamped", "there is no link above")
-    for name in ("standing", "flywheel", "displaced", "pin"):
+    for name in ("standing", "flywheel", "displaced", "pin", "drag", "air_drag"):
         if getattr(link, name) not in (False, UNSET):
             numbers.refuse(name, "must be given for the link above, to which this one is clamped")
     if max(link.repeat, *(each.repeat for each in above), 1) > 1:
@@ -318,7 +319,7 @@ def _rig(chain: Chain | None, scene: Tables, numbers: Numbers) -> Rig | None:
     repeats = [link.repeat for _, link in links]
     support = _support(scene.support, numbers.of("support"))
     heavy, added = numbers.heavy, f"added_{numbers.heavy}"
-    wheels, fluids, pins = [], [], []
+    wheels, fluids, pins, drags = [], [], [], []
     for (index, link), first in zip(links, accumulate(repeats, initial=0), strict=False):
         inside = numbers.of(f"links[{index}]")
         wheel = {heavy: 0.0, "radius_of_gyration": 0.0, "spin": 0.0}
@@ -328,6 +329,7 @@ def _rig(chain: Chain | None, scene: Tables, numbers: Numbers) -> Rig | None:
             fluid |= {name: getattr(chain, name)[first] for name in ("centroid", "radius_of_gyration")}
         fluids.append(fluid | inside.of("displaced").read(link.displaced))
         pins.append({"stiffness": 0.0, "damping": 0.0} | inside.of("pin").read(link.pin, "pin_"))
+        drags.append({} if link.drag is UNSET else {"drag": inside.value("drag", link.drag, "drag", "not negative")})
         if scene.fluid == "turning" and fluids[-1][added] > 0:
             inside.refuse("displaced", f"must have no {added} in a fluid that turns with the chain")
     if numbers.problems or chain is None:
@@ -346,12 +348,38 @@ def _rig(chain: Chain | None, scene: Tables, numbers: Numbers) -> Rig | None:
             if all(each.radius_of_gyration is UNSET for each in displaced):
                 del columns["radius_of_gyration"]  # that of the links, with all stored digits
             given["displaced"] = Displaced(**columns)
+        if any(link.drag is not UNSET for _, link in links):
+            given["drag"] = np.repeat([read.get("drag", 0.0) for read in drags], repeats)
         if any(link.pin is not UNSET for _, link in links):
             given["pins"] = Pin(**_columns(pins, repeats))
         return Rig(chain, **given)
     except ValueError as error:
         numbers.problems.append(problem_of(error, "links" if links else "support", links))
         return None
+
+
+def air_drag(scene: Tables, density: float | None, numbers: Numbers) -> Drag | None:
+    """The drag of air on the links of a scene; None if there is none or it was refused, which is noted."""
+    whole = scene.uniform_chain if scene.tapered_chain is UNSET else scene.tapered_chain
+    if isinstance(whole, UnsetType):
+        links = scene._bodies()
+        rows = [(link.air_drag, numbers.of(f"links[{index}].air_drag")) for index, link in links]
+        repeats = [link.repeat for _, link in links]
+    else:
+        kind = "uniform_chain" if scene.tapered_chain is UNSET else "tapered_chain"
+        rows, repeats = [(whole.air_drag, numbers.of(f"{kind}.air_drag"))], [1]
+    given: list[Given] = []
+    for table, inside in rows:
+        found = {"coefficient": 0.0, "diameter": 0.0, "area": 0.0} | inside.read(table)
+        if not isinstance(table, UnsetType) and table.diameter is UNSET and table.area is UNSET:
+            inside.refuse("", "give a diameter of the link, an area of a body at it, or both")
+        given.append({"body_coefficient": found["coefficient"]} | found)
+    if all(table is UNSET for table, _ in rows):
+        numbers.refuse("ask.drag", 'no link has drag: write air_drag = {coefficient = 1.1, diameter = "5 mm"} in a link')
+    if numbers.problems:
+        return None
+    columns = {name: x if len(repeats) > 1 or repeats[0] > 1 else x[0] for name, x in _columns(given, repeats).items()}
+    return Drag(**columns, **({} if density is None else {"density": density}))
 
 
 def _support(table: tables.Support | UnsetType, numbers: Numbers) -> Given:

@@ -80,6 +80,17 @@ class Pin(Table, frozen=True):
     damping: Annotated[MaybeNotNegative, says("Torque over the rate of the angle (N m s/rad).")] = UNSET
 
 
+class AirDrag(Table, frozen=True):
+    """What the drag of air on a link depends on, for [ask.drag]: its diameter, a body at its centre of gravity, or both."""
+
+    coefficient: Annotated[NotNegative, says("Drag coefficient: 1.0 to 1.2 for a cylinder, 0.5 for a sphere.")]
+    diameter: Annotated[MaybeNotNegative, says("Diameter of the link as a cylinder (m).")] = UNSET
+    area: Annotated[MaybeNotNegative, says("Frontal area of a body at its centre of gravity (m^2).")] = UNSET
+    body_coefficient: Annotated[
+        MaybeNotNegative, says("Drag coefficient of that body; coefficient if left out.")
+    ] = UNSET
+
+
 class Support(Table, frozen=True):
     """The support of the uppermost pin."""
 
@@ -126,6 +137,10 @@ class Link(Table, frozen=True):
     flywheel: Annotated[Flywheel | UnsetType, says("A wheel that spins about the axis of the link.")] = UNSET
     displaced: Annotated[Displaced | UnsetType, says("The fluid that it displaces.")] = UNSET
     pin: Annotated[Pin | UnsetType, says("Spring and dashpot at its upper pin.")] = UNSET
+    drag: Annotated[
+        MaybeNotNegative, says("Linear drag of the whole link in small motion, over its speed (N s/m).")
+    ] = UNSET
+    air_drag: Annotated[AirDrag | UnsetType, says("Quadratic drag of air, for [ask.drag].")] = UNSET
 
 
 class Whole(Table, frozen=True):
@@ -141,6 +156,8 @@ class Whole(Table, frozen=True):
 class UniformChain(Whole, frozen=True, kw_only=True):
     """A chain of equal links."""
 
+    air_drag: Annotated[AirDrag | UnsetType, says("Quadratic drag of air on each link, for [ask.drag].")] = UNSET
+
     kind: Annotated[Literal["plummets", "rods"], says("Kind of the links.")]
     count: Annotated[Count, says("Number of links.")]
 
@@ -148,6 +165,7 @@ class UniformChain(Whole, frozen=True, kw_only=True):
 class TaperedChain(Whole, frozen=True, kw_only=True):
     """A cord whose line density is a power of the distance from its free end, cut into straight equal lengths."""
 
+    air_drag: Annotated[AirDrag | UnsetType, says("Quadratic drag of air on each link, for [ask.drag].")] = UNSET
     count: Annotated[Count, says("Number of links.")]
     exponent: Annotated[float, Meta(gt=-1, le=1000, description="Exponent of the power; 0 gives equal rods.")]
 
@@ -342,6 +360,16 @@ class AskCampbell(Table, frozen=True):
     ] = "free"
 
 
+class AskDrag(Table, frozen=True):
+    """The steady shape of a chain that is carried round through still air (`revchain.drag_shape`)."""
+
+    angular_speed: Annotated[AnySign | UnsetType, says("Turning speed (rad/s).")] = UNSET
+    half_waves: Annotated[
+        Count | UnsetType, says("Half waves of the shape without drag to start from; left out: from rest.")
+    ] = UNSET
+    air_density: Annotated[MaybePositive, says("Density of the air (kg/m^3); 1.225 if left out.")] = UNSET
+
+
 class AskEquilibria(Table, frozen=True):
     """Equilibria of a governor: at one speed, or those between its stops (`revchain.SleeveGovernor.equilibria`)."""
 
@@ -367,6 +395,7 @@ class Ask(Table, frozen=True):
     swing: Annotated[AskSwing | UnsetType, says("Motion after release, or under a moving support.")] = UNSET
     branches: Annotated[AskBranches | UnsetType, says("All branches of steady shapes.")] = UNSET
     campbell: Annotated[AskCampbell | UnsetType, says("Frequencies of small motion against the speed.")] = UNSET
+    drag: Annotated[AskDrag | UnsetType, says("The steady shape of a carried chain in air.")] = UNSET
     equilibria: Annotated[AskEquilibria | UnsetType, says("Equilibria of a governor.")] = UNSET
 
 
@@ -377,6 +406,7 @@ QUESTIONS: dict[str, type[Table]] = {
     "swing": AskSwing,
     "branches": AskBranches,
     "campbell": AskCampbell,
+    "drag": AskDrag,
     "equilibria": AskEquilibria,
 }
 TABLES: dict[str, type[Table]] = {**QUESTIONS, "explain": AskExplain}
@@ -430,7 +460,7 @@ class Tables(Table, frozen=True):
     def is_rigged(self) -> bool:
         """Whether the scene has more than a chain that hangs from a firm point on the axis."""
         links = [] if isinstance(self.links, UnsetType) else self.links
-        fitted = any(part is not UNSET for link in links for part in (link.flywheel, link.displaced, link.pin))
+        fitted = any(part is not UNSET for link in links for part in (link.flywheel, link.displaced, link.pin, link.drag))
         return self.support is not UNSET or fitted or any(link.standing for link in links)
 
     @property

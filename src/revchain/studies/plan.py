@@ -67,7 +67,7 @@ _OF_MODES = {"angular_speed": "rad/s", "conical_height": "m", "error_bound": "",
 _TURNS = (("forward", 1, "rig"), ("backward", -1, "spinning"))
 _ANSWERS = {
     "modes": Scene.modes, "shapes": Scene.steady_shapes, "response": Scene.response, "campbell": Scene.campbell,
-    "equilibria": Scene.equilibria,
+    "drag": Scene.drag_shape, "equilibria": Scene.equilibria,
 }  # fmt: skip
 STUDIED = tuple(_ANSWERS)
 _OF_STOPS = {"lowest_speed": "rad/s", "highest_speed": "rad/s", "lift": "m", "sensitiveness": "", "insensitiveness": ""}
@@ -97,6 +97,9 @@ OUTPUTS = {
     "first_crossing": Output("campbell", _first_crossings, "rad/s", along="order"),
     "lowest_frequency": Output("campbell", attrgetter("lowest"), "rad/s", along="campbell_speed"),
     "stable": Output("campbell", attrgetter("stable"), kind="?", along="campbell_speed"),
+    "drag_torque": Output("drag", attrgetter("torque"), "N m"),
+    "drag_power": Output("drag", attrgetter("power"), "W"),
+    "drag_factor": Output("drag", attrgetter("factor")),
     **{
         f"{'sleeve_' * (name == 'lift')}{name}": Output("equilibria", partial(_between_stops, name), unit, only="stops")
         for name, unit in _OF_STOPS.items()
@@ -187,6 +190,7 @@ def answers(scene: Scene, find: Sequence[str]) -> tuple[dict[str, Any], bool]:
     found: dict[str, Any] = {question: _ANSWERS[question](scene) for question in find}
     proved = [
         "modes" not in found or found["modes"].status == "success",
+        "drag" not in found or found["drag"].status == "success",
         "shapes" not in found or found["shapes"].complete,
         "response" not in found or np.isfinite(found["response"]._error).all(),
     ]

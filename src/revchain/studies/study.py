@@ -24,7 +24,7 @@ from .plan import OUTPUTS, Plan, answers, asked_of, columns_of, outputs_of
 
 __all__ = ["Study", "load_study"]
 
-Finds = Annotated[list[Literal["modes", "shapes", "response", "campbell", "equilibria"]], Meta(min_length=1)]
+Finds = Annotated[list[Literal["modes", "shapes", "response", "campbell", "drag", "equilibria"]], Meta(min_length=1)]
 MostShapes = Annotated[int, Meta(ge=1, le=1000)]
 
 
@@ -42,7 +42,7 @@ class Study(Table, frozen=True):
         Number of points with random numbers at each point of the grids.
     seed : int
         Seed of the random numbers.
-    find : list of {"modes", "shapes", "response", "campbell", "equilibria"}, optional
+    find : list of {"modes", "shapes", "response", "campbell", "drag", "equilibria"}, optional
         Questions to answer. If left out, those for which the scene has a table; if it has none, its modes, or the
         equilibria of a governor.
     max_shapes : int

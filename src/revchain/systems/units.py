@@ -57,7 +57,7 @@ _NAMES = {
     "an angle": "angle phase inclination lowest_inclination highest_inclination clearance amplitude",
     "an angular momentum": "momentum",
     "a moment of inertia": "axial_moment shaft_inertia",
-    "a fraction": "rtol",
+    "a fraction": "rtol coefficient body_coefficient",
 }
 SI = {name: (_KINDS[kind][0], kind, _KINDS[kind][1]) for kind, names in _NAMES.items() for name in names.split()}
 """SI unit, kind and an example of each quantity."""
