@@ -21,6 +21,9 @@ NAMES = [
     "porter_governor",
 ]
 
+COUNTS = {"swing": lambda found: (found.time.size, "times"), "drag": lambda found: (1, "shapes")}
+
+
 def drawn(scene, question, found):
     """The picture of the first answer: of a broomstick with its lean."""
     if question == "modes" and not len(found) and "response" in scene.asks:
@@ -32,7 +35,7 @@ for name in NAMES:
     scene = rc.load_scene(SCENES / f"{name}.toml")
     [question, found], *_ = scene.answers().items()
     axes = drawn(scene, question, found)
-    count, what = (len(found), question) if question != "swing" else (found.time.size, "times")
+    count, what = (len(found), question) if question not in COUNTS else COUNTS[question](found)
     axes.set_title(scene.title)
     print(f"{scene.title}: {count} {what if count != 1 else what[:-1]},", end=" ")
     save(axes.figure, f"scene_{name}")

@@ -16,7 +16,7 @@ from revchain.scenes import tables as hung
 from revchain.scenes.tables import QUESTIONS, Ask, AskModes, Link, Spread, UniformChain
 from revchain.scenes.scene import Scene, json_schema
 
-_HANGING = ("Link", "UniformChain", "TaperedChain", "Cord", "Support", "Flywheel", "Displaced", "Pin", "Held", "End", "Governor")
+_HANGING = ("Link", "UniformChain", "TaperedChain", "Cord", "PointMass", "AirDrag", "Support", "Flywheel", "Displaced", "Pin", "Held", "End", "Governor")
 
 ONE = {"mass": 1.0, "length": 1.0}
 

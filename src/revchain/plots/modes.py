@@ -146,6 +146,8 @@ class Straight:
         marker = "o" if self.few else ""
         line: dict[str, Any] = {"color": colour, "linewidth": 1.6, "marker": marker, "markersize": 4.0, "zorder": 2}
         ax.plot(across[drawn], self.level[drawn], label=label, **line)
+        if self.system._is_cord:
+            self._particles(ax, across, colour, 4.0)
         above: Floats = (rods_of(self.base) - self.base.centroid) / self.base.length if self.few else np.zeros(0)
         for k in np.flatnonzero(above > 1e-9):  # rods that go on above their pins
             ends = [[at[k + 1], at[k + 1] + above[k] * (at[k + 1] - at[k])] for at in (across, self.level)]
@@ -156,6 +158,13 @@ class Straight:
             none = np.full(stout.size, np.nan)
             x, z = (np.stack([at[stout], at[stout + 1], none], 1).ravel() for at in (across, self.level))
             ax.plot(x, z, color=colour, linewidth=4.0, alpha=0.45, zorder=2)
+
+    def _particles(self, ax: Axes, across: Floats, colour: str, size: float) -> None:
+        """Draw dots for the point masses on a cord at these distances from the vertical."""
+        places = np.array(list(self.base._particles))
+        if places.size:
+            x, z = (np.interp(places, self.level[0] - self.level, at) for at in (across, self.level))
+            ax.plot(x, z, "o", color=colour, markersize=size, zorder=2)
 
     def at_rest(self, ax: Axes) -> None:
         """Draw the straight system: bodies sized by weight, wheels seen edge-on, and the support."""
@@ -171,6 +180,7 @@ class Straight:
             ax.fill_betweenx(self.level, -thick, thick, color=LINK, linewidth=0.0)
             if self.base._compiled.tip_weight:
                 ax.plot(0.0, self.level[0], marker="o", color=LINK, markersize=9.0)
+            self._particles(ax, np.zeros(201), LINK, 7.0)
             self.supports(ax, 0.0)
             return
         across = self._folded(ax)

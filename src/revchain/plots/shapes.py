@@ -84,9 +84,9 @@ def plot_drag_shape(shape: DragShape, ax: Axes | None = None, *, view: str | Non
         side, above = figure.subplots(2, 1, sharex=True)
         for each in (side, above):
             each.spines[["top", "right"]].set_visible(False)
-        _draw_from(shape, side, "side")
-        side.set_xlabel("")
-        return _draw_from(shape, above, "above")
+        _draw_from(shape, above, "above")
+        _draw_from(shape, side, "side").set_xlabel("")
+        return side
     return _draw_from(shape, axes_or_new(ax, 6.0, 5.0), chosen or "above")
 
 

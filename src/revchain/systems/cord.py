@@ -300,7 +300,8 @@ class Cord(System):
         spread = "density as a function" if not isinstance(self._function, float) else f"density as s^{self._function:g}"
         tip = f", {'bob' if self._bob[0] else 'tip'} {self._compiled.tip_weight:.6g}" if self._compiled.tip_weight else ""
         if self._particles:
-            tip = f", carrying {sum(self._particles.values()):.6g} at {len(self._particles)} places{tip}"
+            places = "place" if len(self._particles) == 1 else "places"
+            tip = f", carrying {sum(self._particles.values()):.6g} at {len(self._particles)} {places}{tip}"
         return f"Cord of length {self.length:.6g}, {heavy}{', ' + spread if self._function != 0.0 else ''}{tip}"
 
     _kind = "cord"
