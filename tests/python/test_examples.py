@@ -376,7 +376,7 @@ def test_page_of_scenes():
     assert "5.95 m, inclined at 23 degrees" in page
     assert f"{out.offset[0]:.2f} m at {np.degrees(out.inclination[0]):.0f}" == "5.95 m at 23"
     chains = {"ball_on_chain", "clamped_bell", "jointed_rod", "rods_on_threads"}
-    assert {path.stem for path in RIGS + HELD + GOVERNORS} | chains | {"plucked_chain", "crane_brakes_shaped"} == set(shown)
+    assert {path.stem for path in RIGS + HELD + GOVERNORS + CORDS + CARRIED} | chains | {"plucked_chain", "crane_brakes_shaped"} == set(shown)
 
 
 def test_experiments_are_whole():

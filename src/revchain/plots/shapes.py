@@ -81,6 +81,7 @@ def plot_drag_shape(shape: DragShape, ax: Axes | None = None, *, view: str | Non
     chosen = None if view is None else word("revchain.DragShape.plot", "view", view, ("side", "above"))
     if ax is None and chosen is None:
         figure = new_figure(6.0, 8.0)
+        side: Axes
         side, above = figure.subplots(2, 1, sharex=True)
         for each in (side, above):
             each.spines[["top", "right"]].set_visible(False)

@@ -210,7 +210,7 @@ def _whole(table: tables.Whole, numbers: Numbers) -> Chain | Cord | None:
         return None
     try:
         if isinstance(table, tables.Cord):
-            many = {"masses" if numbers.by_mass else "weights": _by_place(particles, numbers.heavy)} if particles else {}
+            many: Given = {"masses" if numbers.by_mass else "weights": _by_place(particles, numbers.heavy)} if particles else {}
             return Cord(**given, density=table.density, **many)
         tip = given.pop(f"tip_{numbers.heavy}", 0.0)
         if isinstance(table, tables.TaperedChain):

@@ -87,7 +87,7 @@ class Cord(System):
     A clasp of 0.3 kg on a cord, and a bob of finite size at the end of another:
 
     >>> rc.modes(rc.Cord(1.8, mass=0.018, masses={1.2: 0.3}, tip_mass=0.05), 2).angular_speed.round(4)
-    array([2.6817, 5.7588])
+    array([2.7332, 4.6992])
     >>> bob = rc.Cord(1.5, mass=0.05, tip_mass=0.2, tip_centroid=0.02, tip_radius_of_gyration=0.03)
     >>> rc.modes(bob, 3, gravity=9.81).angular_speed.round(6)
     array([ 2.587687, 14.325582, 17.928121])
