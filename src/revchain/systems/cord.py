@@ -73,7 +73,7 @@ class Cord(System):
     A power is stored as its exponent. A function is stored as piecewise polynomials, to 1e-14 of its largest value on
     each piece, with an estimate of the error of its integral, which the error bounds of the results include. Cost: 4
     microseconds; with a function 1200 calls of it, and 1500 more for each corner or jump: 0.4 to 2 ms.
-    Source: Greenhill (1908), section 4.
+    Source: Greenhill (1908), section 4; a bob: J. S. Deschaine and B. H. Suits, Eur. J. Phys. 29, 1211 (2008).
 
     Examples
     --------
