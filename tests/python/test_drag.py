@@ -249,6 +249,20 @@ def test_a_ball_on_a_thread(speed):
     assert math.isclose(seen - shape.azimuth[0], psi, rel_tol=1e-13)  # the thread trails behind the ball's own radius
 
 
+@pytest.mark.parametrize(("arm", "radius", "speed"), [(0.1, 1.0, 4.0), (0.5, 1.5, 3.0), (1.0, 1.0, 2.0), (0.02, 3.0, 6.0)])
+def test_figure_2_of_the_paper(arm, radius, speed):
+    """Greenhill's whirling machine, section 1 (8): R / W = CA / CN where the arm is at right angles to the plane of the ball."""
+    mass, height = 0.7, G / speed**2
+    thread = rc.plummet.whirling_thread(arm=arm, height=height, radius=radius)
+    resistance = rc.plummet.air_resistance(arm=arm, height=height) * mass * G
+    area = resistance / (1.225 / 2 * 0.5 * (speed * radius) ** 2)
+    rig = rc.Rig(rc.Chain(mass=mass, length=thread), support=rc.Support(radius=arm))
+    shape = rc.drag_shape(rig, rc.Drag(0.5, area=area), angular_speed=speed)
+    assert shape.status == "success"
+    assert shape.position[0] == pytest.approx([0.0, -radius, -height], abs=1e-13 * thread)
+    assert shape.torque == pytest.approx(resistance * radius, rel=1e-13)
+
+
 @pytest.mark.parametrize("half_waves", [None, 1])
 @pytest.mark.parametrize("seed", range(10))
 def test_without_drag_the_shapes_are_those_in_a_plane(seed, half_waves):
