@@ -206,6 +206,7 @@ TEST_CASE("what campbell refuses", "[finite]") {
     refused({.angular_speed = {5.0, 6.0}, .orders = {}}, "orders must have at least one number");
     refused({.angular_speed = {5.0, 6.0}, .orders = {1, 0}}, "orders must be at least 1, got 0");
     refused({.angular_speed = {5.0, 6.0}, .half_waves = 0}, "half_waves must be at least 1, got 0");
-    refused({.angular_speed = {5.0, 6.0}, .half_waves = 2}, "no shape has this number of half_waves at any speed");
+    refused({.angular_speed = {5.0, 6.0}, .half_waves = 2},
+            "at none of the speeds, 5 to 6 rad/s, is there a shape with this number of half_waves");
     refused({.angular_speed = {5.0, 6.0}, .gravity = 0}, "gravity must be positive");
 }

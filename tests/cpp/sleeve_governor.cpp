@@ -233,3 +233,26 @@ TEST_CASE("governors: what is refused", "[public]") {
     CHECK_THROWS_WITH(governor.equilibria(-1), Contains("speed"));
     CHECK_THROWS_WITH(governor.effort(0.5, 0), Contains("change"));
 }
+
+TEST_CASE("governor: arms all but straight across at high speeds", "[public]") {
+    // equal arms: cos = (n_0 / n)^2 with n_0^2 = (1 + sleeve / ball) g / arm
+    const SleeveGovernor porter({.ball_mass = 2.3, .arm = 0.33, .lower_arm = 0.33, .sleeve_mass = 9.5});
+    const double slowest = std::sqrt((1 + 9.5 / 2.3) * 9.80665 / 0.33);
+    for (const double ratio : {1.5, 20.0, 100.0, 150.0, 200.0, 1e3, 1e6, 1e30}) {
+        CAPTURE(ratio);
+        bool complete = false;
+        const auto found = porter.equilibria(ratio * slowest, &complete);
+        REQUIRE(found.size() >= 1);
+        CHECK(found.front().inclination == 0);
+        if (found.size() == 1) {
+            CHECK_FALSE(complete);  // nearer to the horizontal than doubles tell
+            CHECK(ratio > 1e3);
+            continue;
+        }
+        // the cosine of the lower link is found from its sine, to 1e-16 over the cosine
+        CHECK(std::abs(std::cos(found[1].inclination) - 1 / (ratio * ratio)) < 1e-12 + 1e-16 * ratio * ratio);
+        CHECK(found[1].stable);
+        if (ratio <= 100) CHECK(complete);
+    }
+    CHECK_THROWS_AS(porter.equilibria(1e200), revchain::InvalidArgument);
+}

@@ -74,7 +74,7 @@ def test_tables_files_pictures(tmp_path):
         ({"angular_speed": [-1.0, 1.0]}, "angular_speed must be positive"),
         ({"orders": []}, "orders must be whole positive numbers"),
         ({"orders": [0]}, "orders must be whole positive numbers"),
-        ({"half_waves": 4}, "no shape has this number of half_waves at any speed, got 4"),
+        ({"half_waves": 4}, r"at none of the speeds, [\d.]+ to [\d.]+ rad/s, is there a shape with this number of half_waves, got 4"),
         ({"frame": "fixed"}, "frame"),
     ],
 )

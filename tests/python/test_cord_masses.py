@@ -231,6 +231,7 @@ def test_what_a_cord_keeps():
     assert pickle.loads(pickle.dumps(cord)) == cord
     assert rc.Cord._from_data(cord._data()) == cord
     assert cord != rc.Cord(2.0, mass=0.3, tip_mass=0.1)
+    assert rc.Cord("2 m", mass="300 g", masses={"50 cm": "200 g", "1.25 m": 0.4}) == rc.Cord(2.0, mass=0.3, masses=cord.masses)
     assert "bob 0.1" in repr(cord) and "carrying 0.6 at 2 places" in repr(cord)
     assert "0.05 m below the end" in cord.describe() and "at 1.25 m: 0.4 kg" in cord.describe()
     other = rc.Cord(2.0, mass=0.3, density=lambda s: 1 if s < 1 else 3, breaks=[1.0], masses={0.5: 0.2})
@@ -248,7 +249,7 @@ def test_what_a_cord_keeps():
         ({"masses": {1.0: -1.0}}, r"masses\[1\] must be finite and not negative, got -1"),
         ({"masses": [0.5, 1.0]}, r"masses must map distances from the free end to masses"),
         ({"weights": {1.0: 1.0}}, r"give masses for a cord given by mass"),
-        ({"breaks": [1.0]}, r"breaks are for a density that is a function; leave them out, got 0"),
+        ({"breaks": [1.0]}, r"breaks are for a density that is a function; leave them out, got \[1.0\] beside density 0"),
         ({"density": lambda s: 1.0, "breaks": [0.0]}, r"breaks must be positive"),
         ({"density": lambda s: 1.0, "breaks": [3.0]}, r"breaks must lie between .*got 3"),
         ({"tip_mass": 1.0, "tip_radius_of_gyration": 0.1}, r"tip_radius_of_gyration needs a tip_centroid above 0"),

@@ -110,6 +110,8 @@ FILES = {
     "drag on the axis": (LINK + 'air_drag = {coefficient = 1, area = 1}\n[ask.drag]\nangular_speed = 3\n', '5:1 ask.drag: needs a support off the axis, which carries the chain round: write [support] and radius = "2 m"'),
     "no link has drag": (ARM + LINK + "[ask.drag]\nangular_speed = 3\n", '6:1 ask.drag: no link has drag: write air_drag = {coefficient = 1.1, diameter = "5 mm"} in a link'),
     "drag of nothing": (ARM + LINK + "air_drag = {coefficient = 1}\n[ask.drag]\nangular_speed = 3\n", "6:1 links[0].air_drag: give a diameter of the link, an area of a body at it, or both"),
+    "no coefficient": (ARM + LINK + "air_drag = {area = 1}\n[ask.drag]\nangular_speed = 3\n", "6:1 links[0].air_drag.coefficient: is missing"),
+    "negative coefficient": (ARM + LINK + "air_drag = {coefficient = -1, area = 1}\n[ask.drag]\nangular_speed = 3\n", "6:13 links[0].air_drag.coefficient: must not be negative, got -1"),
     "negative area": (ARM + LINK + "air_drag = {coefficient = 1, area = -2}\n[ask.drag]\nangular_speed = 3\n", "6:30 links[0].air_drag.area: must not be negative, got -2"),
     "area in metres": (ARM + LINK + 'air_drag = {coefficient = 1, area = "2 m"}\n[ask.drag]\nangular_speed = 3\n', '6:30 links[0].air_drag.area: must be an area such as "40 cm^2", got "2 m"'),
     "a mass at the support": (CORD + "[[cord.masses]]\narc_length = 1\nmass = 1\n", "1:1 cord: places of masses must lie between the free end and the support, at distances from the free end above 0 and below the length, 1 (what is at the free end is the tip), got 1"),

@@ -105,7 +105,7 @@ def test_questions_without_an_answer(run):
         (("campbell", "cord.toml", *speeds), "campbell: no answer for a cord; cut it into links"),
         (("campbell", "held.toml", *speeds), "campbell: no answer for a chain or cord held at both ends; ask for its modes"),
         (("campbell", "chain.toml"), "ask.campbell.angular_speed: is missing: write {from"),
-        (("campbell", "chain.toml", *speeds, "--half-waves", "3"), "no shape has this number of half_waves at any speed, got 3"),
+        (("campbell", "chain.toml", *speeds, "--half-waves", "3"), "is there a shape with this number of half_waves, got 3"),
     ):
         code, out, err = run(*arguments)
         assert code == 2 and out == "" and words in err, err

@@ -267,7 +267,9 @@ inline Strike strike_of(const BellAndClapper<double>& bell, const StrikeStart& s
             continue;
         }
         const double forward = way == 0 ? -1 : way, unit = pair.rate_unit(start.gravity);
-        return {StrikeStatus::strikes,    struck * forward > 0, forward * s.bell,
+        // one that starts upwards may go over the top and fall on the other side
+        const double lowest = s.bell > std::numbers::pi ? 2 * std::numbers::pi : 0.0;
+        return {StrikeStatus::strikes,    struck * forward > 0, forward * (s.bell - lowest),
                 forward * s.swing * unit, time / unit,          0};
     }
     return without(StrikeStatus::too_long);

@@ -160,6 +160,9 @@ inline std::vector<GovernorPoint> SleeveGovernor::equilibria(double speed, bool*
     require_not_negative("SleeveGovernor::equilibria", "speed", speed);
     const GovernorData& d = data_;
     const double from = Motion::start(d), square = speed * speed;
+    constexpr double fastest = 1e100;  // rad/s: beyond it squares leave the range of double
+    if (!(speed <= fastest))
+        throw_invalid("SleeveGovernor::equilibria", "speed must be at most 1e100", speed);
     bool all = true;
     std::vector<GovernorPoint> found;
     const auto left = [&](const I& sine) {  // the derivative of the potential at this speed
@@ -176,6 +179,20 @@ inline std::vector<GovernorPoint> SleeveGovernor::equilibria(double speed, bool*
     };
     // The balls stay on their side of the axis.
     const double least = std::clamp(-d.pivot_offset / d.arm, -1.0, 1.0) + 0.0;
+    // Where the arms reach farthest, they or the lower links are straight across. The pull of the
+    // links then grows without bound, or the balls move only up: the force turns the arms back.
+    const auto add_at_reach = [&](double low, double high) {
+        const double a = std::asin(low), far = std::asin(std::min(high, 1.0));
+        if (!(exact(a).first < 0)) return;
+        const double b = halved(a, far, [&](double angle) {
+                             return Motion::reaches(d, std::sin(angle)) ? -1 : 1;
+                         }).first;
+        const double end = Motion::reaches(d, std::sin(far)) ? far : b;
+        if (end > a && exact(end).first > 0)
+            found.push_back(at(zero_between(a, end, exact), speed));
+        else
+            all = false;
+    };
     const auto search = [&](const auto& self, double low, double high, int depth) -> void {
         const bool reaches_low = Motion::reaches(d, low), reaches_high = Motion::reaches(d, high);
         if (!reaches_low && !reaches_high && depth > 4) return;
@@ -184,7 +201,8 @@ inline std::vector<GovernorPoint> SleeveGovernor::equilibria(double speed, bool*
         if (depth > 48 || (depth > 30 && !(Motion::reaches(d, low - 2 * width) &&
                                            Motion::reaches(d, high + 2 * width)))) {
             if (depth > 48 && reaches_low && reaches_high) all = false;
-            return;  // the lower links are straight across: their pull has no bound there
+            if (reaches_low) add_at_reach(low, high);
+            return;
         }
         if (reaches_low && reaches_high) {
             const auto [force, stiffness] = left({low, high});

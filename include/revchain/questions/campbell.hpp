@@ -77,7 +77,10 @@ Campbell campbell_of(const System& system, const CampbellOptions& options) {
         any = any || motions.back().exists;
     }
     if (!any)
-        throw_invalid("campbell", "no shape has this number of half_waves at any speed",
+        throw_invalid("campbell",
+                      "at none of the speeds, " + in_digits(speeds.front()) + " to " +
+                          in_digits(speeds.back()) +
+                          " rad/s, is there a shape with this number of half_waves",
                       options.half_waves);
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     constexpr double continuous = 1e-6;  // at the zero; more where motions begin or end in a jump

@@ -61,7 +61,7 @@ def campbell(
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
     ValueError
         If `system` is a `Cord` or a `Held`; if speeds are not positive, finite and ascending; if `orders` has none, or not
-        whole positive numbers; as `steady_shapes` and `SteadyShape.stability`; if there is no such shape at any speed.
+        whole positive numbers; as `steady_shapes` and `SteadyShape.stability`; if there is no such shape at any of the speeds given.
 
     Notes
     -----

@@ -369,7 +369,8 @@ def _reason(sentence: str, key: str, raw: Any, path: str, annotation: Any) -> st
     if not isinstance(value, list) and lists and structs and not path:
         if isinstance(value, dict):
             return f"is a list of tables: write [[{key}]], with two brackets, above each of them"
-        return f"must be tables{got}: write [[{key}]] above each of them, and below it mass = 1.0 and length = 0.5"
+        where = "arc_length" if key == "cord.masses" else "length"
+        return f"must be tables{got}: write [[{key}]] above each of them, and below it mass = 1.0 and {where} = 0.5"
     if sentence.endswith(" of length >= 1"):
         example = 'say what varies, such as vary."links[0].mass" = {values = [1, 2]}'
         return f"is empty: {example if key == 'vary' else 'give at least one'}"

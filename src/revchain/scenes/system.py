@@ -376,7 +376,7 @@ def air_drag(scene: Tables, density: float | None, numbers: Numbers) -> Drag | N
         given.append({"body_coefficient": found["coefficient"]} | found)
     if all(table is UNSET for table, _ in rows):
         numbers.refuse("ask.drag", 'no link has drag: write air_drag = {coefficient = 1.1, diameter = "5 mm"} in a link')
-    if numbers.problems:
+    if numbers.problems or math.isnan(sum(sum(row.values()) for row in given)):
         return None
     columns = {name: x if len(repeats) > 1 or repeats[0] > 1 else x[0] for name, x in _columns(given, repeats).items()}
     return Drag(**columns, **({} if density is None else {"density": density}))

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from .. import _core
 from .chain import Chain
-from .numbers import Floats, mass_or_weight, one_positive, positive, real, shown
+from .numbers import Floats, floats, mass_or_weight, one_positive, positive, real, shown
 from .system import System
 
 Density = float | Callable[[float], float]
@@ -51,8 +51,8 @@ class Cord(System):
     tip_mass, tip_weight : float, optional
         Mass (kg) or weight (N) of a point mass or bob at the free end, in the same quantity as the cord.
     masses, weights : mapping of float to float, optional
-        Point masses on the cord (kg), such as clasps: ``{s: mass}`` with s the distance from the free end, m. Not part of
-        `mass`.
+        Point masses on the cord (kg), such as clasps: ``{s: mass}`` with s the distance from the free end, m, or
+        ``{"50 cm": "20 g"}``. Not part of `mass`.
     breaks : array_like, shape (B,), optional
         Distances from the free end at which a density function jumps or has a corner, m.
     tip_centroid, tip_radius_of_gyration : float, optional
@@ -151,7 +151,9 @@ class Cord(System):
             raise ValueError(f"{caller}: tip_centroid needs a tip_{'mass' if by_mass else 'weight'} above 0 beside it")
         function: _core.LineDensity | float
         if breaks is not None and not callable(density):
-            raise ValueError(f"{caller}: breaks are for a density that is a function; leave them out, got {density}")
+            raise ValueError(
+                f"{caller}: breaks are for a density that is a function; leave them out, got {shown(breaks)} beside density {density}"
+            )
         if isinstance(density, _core.LineDensity):
             function = density
         elif callable(density):
@@ -386,6 +388,11 @@ def _not_negative(caller: str, name: str, value: object) -> float:
     return number
 
 
+def _one(caller: str, name: str, value: object, quantity: str) -> float:
+    """One number, in the SI unit of the quantity."""
+    return real(caller, name, floats(caller, name, value, quantity))  # type: ignore[arg-type]
+
+
 def _inside(caller: str, name: str, place: float, length: float) -> float:
     if not _core.LineDensity.least_place * length <= place < length * (1 - 2.0**-40):
         raise ValueError(
@@ -403,15 +410,16 @@ def _particles(caller: str, name: str, given: Mapping[float, float] | None, leng
         raise ValueError(f"{caller}: {why}, got {shown(given)}")
     found: dict[float, float] = {}
     for at, heavy in given.items():
-        place = _inside(caller, f"places of {name}", real(caller, f"places of {name}", at), length)
-        found[place] = found.get(place, 0.0) + _not_negative(caller, f"{name}[{place:g}]", heavy)
+        place = _inside(caller, f"places of {name}", _one(caller, f"places of {name}", at, "arc_length"), length)
+        mass = _one(caller, f"{name}[{place:g}]", heavy, "mass" if name == "masses" else "weight")
+        found[place] = found.get(place, 0.0) + _not_negative(caller, f"{name}[{place:g}]", mass)
     return {s: x for s, x in sorted(found.items()) if x}
 
 
 def _breaks(caller: str, breaks: ArrayLike | None, length: float) -> list[float]:
     if breaks is None:
         return []
-    places = np.atleast_1d(positive(caller, "breaks", breaks))
+    places = np.atleast_1d(positive(caller, "breaks", floats(caller, "breaks", breaks, "arc_length")))
     if places.ndim != 1:
         raise ValueError(f"{caller}: breaks must be a list of distances from the free end, got shape {places.shape}")
     return [_inside(caller, "breaks", float(s), length) for s in places]

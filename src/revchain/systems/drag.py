@@ -64,6 +64,8 @@ class Drag(_Fitting):
         caller = "revchain.Drag"
         if diameter is None and area is None:
             raise ValueError(f"{caller}: give a diameter of the links, an area of bodies at them, or both, got neither")
+        if coefficient is None:
+            raise ValueError(f"{caller}: coefficient must be a number or an array of them, got None")
         given = {"coefficient": coefficient, "diameter": diameter, "area": area, "body_coefficient": body_coefficient}
         columns = {name: floats(caller, name, value) for name, value in given.items() if value is not None}
         columns["density"] = floats(caller, "density", density, "air_density")
