@@ -84,9 +84,12 @@ class Campbell(Result, row="speed", title="{summary}", notes=("{_remarks}",), sp
 
     def _words(self) -> str:
         ends = self.angular_speed[[0, -1]] * (30 / np.pi)
-        return f"Campbell diagram: {self.frequency.shape[1]} frequencies from {ends[0]:.4g} to {ends[1]:.4g} rpm"
+        many = self.frequency.shape[1]
+        return f"Campbell diagram: {many} frequenc{'y' if many == 1 else 'ies'} from {ends[0]:.4g} to {ends[1]:.4g} rpm"
 
     @property
     def _remarks(self) -> str:
         lines = [f"{one.order}n meets frequency {one.motion} at {one.rpm:.5g} rpm" for one in self.crossings]
+        if missing := int(np.isnan(self.frequency).all(axis=1).sum()):
+            lines.append(f"nan: at {missing} of {self.angular_speed.size} speeds no shape was found, or none of its motions oscillates")
         return "\n".join([*lines, "frequencies: of small motion in the turning frame, where what is constant in space turns once (1n)"])

@@ -31,7 +31,7 @@ Listed = Annotated[list[bool | float | str], Meta(min_length=1)]
 TwoNumbers = Annotated[list[NumberOrText], Meta(min_length=2, max_length=2)]
 
 _SPEED = r"\.(angular_speed|conical_height)"
-_ASKED = re.compile(rf"ask\.(shapes{_SPEED}|response{_SPEED}(\[\d+\]|\.from|\.to)?|(drag|equilibria)\.angular_speed)")
+_ASKED = re.compile(rf"ask\.(shapes{_SPEED}|response{_SPEED}(\[\d+\]|\.from|\.to)?|drag\.air_density|(drag|equilibria)\.angular_speed)")
 _PERCENT = re.compile(r"[^%]*%\s*")
 
 
@@ -157,7 +157,8 @@ def _why_not_varied(text: str, path: Path) -> str:
     if text in ("title", "description", "schema_version", "held") or path[-1] == "name":
         return "cannot be varied"
     if path[0] == "ask" and _ASKED.fullmatch(text) is None:
-        return "cannot be varied: of [ask] only the speeds of ask.shapes, ask.response, ask.drag and ask.equilibria can"
+        some = "the speeds of ask.shapes, ask.response, ask.drag and ask.equilibria, and ask.drag.air_density"
+        return f"cannot be varied: of [ask] only {some} can"
     return ""
 
 
