@@ -357,7 +357,7 @@ class CordModeShape {
 /// `scanned` paths. Throws InvalidArgument unless exactly one of height and speed is given,
 /// positive and finite. Throws it too for a length above 1e6 heights, `scanned` below 1, an
 /// exponent of the density above 20, and a cord that the series cannot follow. Examples are an
-/// exponent of 16 without a tip weight, or a tip of 1e30 times the cord's weight.
+/// exponent of 17 without a tip weight, or a tip of 1e30 times the cord's weight.
 REVCHAIN_DECLARE
 [[nodiscard]] CordShapes steady_shapes(const Cord& cord, const CordShapesOptions& options);
 

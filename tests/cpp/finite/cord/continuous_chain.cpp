@@ -517,13 +517,13 @@ TEST_CASE("continuous chain: rates of crossings next to the vertical") {
 
 TEST_CASE("a cord that the series cannot follow is refused, not counted", "[finite]") {
     using Catch::Matchers::ContainsSubstring;
-    for (const double power : {12.0, 15.0}) {
+    for (const double power : {12.0, 15.0, 16.0}) {
         const CordShapes found = shapes_at(Cord(1.0, {.density = power}), 0.05);
         CAPTURE(power);
         CHECK(found.shapes.size() == 5);  // 2 sqrt(20 (power + 1)) is beyond five zeros of J_power
         CHECK(found.complete);
     }
-    for (const double power : {16.0, 18.0, 20.0})
+    for (const double power : {17.0, 18.0, 20.0})
         CHECK_THROWS_WITH(shapes_at(Cord(1.0, {.density = power}), 0.05), ContainsSubstring("too rough"));
     for (const double height : {0.3, 0.9}) {
         const CordShapes found = shapes_at(cord(1.0, 1e20), height);
