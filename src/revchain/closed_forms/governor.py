@@ -17,7 +17,7 @@ from .. import _core
 from ..results.base import Field, Listed, Result
 from ..results.sheet import Column, Sheet
 from ..systems.numbers import STANDARD_GRAVITY, Floats, floats, numbers, one_positive, real
-from .motions import Solved
+from .solved import Solved
 from .table import FloatOrArray, described
 
 __all__ = ["GovernorEffort", "GovernorEquilibria", "GovernorPoints", "SleeveGovernor"]
