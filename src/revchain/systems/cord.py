@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,6 +16,7 @@ from .numbers import Floats, floats, mass_or_weight, one_positive, positive, rea
 from .system import System
 
 Density = float | Callable[[float], float]
+Measured = TypeVar("Measured")
 
 
 class CordData(NamedTuple):
@@ -172,7 +173,7 @@ class Cord(System):
         particles: dict[float, float],
         bob: tuple[float, float],
     ) -> None:
-        _set(self, "_compiled", _core.Cord(length, total, density, tip, particles, *bob))
+        _set(self, "_compiled", _core.Cord(length, total, density, tip, dict[Any, Any](particles), *bob))
         _set(self, "_function", density)
         _set(self, "_particles", particles)
         _set(self, "_bob", bob)
@@ -267,7 +268,7 @@ class Cord(System):
             return _with_bob(made, name, self._compiled.tip_weight, *self._bob)
         return made.with_body(**_named(name, self._compiled.tip_weight)) if self._compiled.tip_weight else made
 
-    def _measured(self, name: str, number: Any) -> Any:
+    def _measured(self, name: str, number: Measured) -> Measured:
         if ("mass" in name) != self.by_mass:
             raise AttributeError(f"this cord was given by {'mass' if self.by_mass else 'weight'}: it has no {name}")
         return number
