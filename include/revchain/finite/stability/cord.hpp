@@ -17,12 +17,12 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 struct CordProfile {
     double length, tip;
     int half_waves;
-    std::vector<double> steps;   ///< ends of steps, ascending, with a smooth shape between
-    std::vector<double> pieces;  ///< ends of pieces of the density; empty if uniform
-    std::vector<std::pair<double, double>> particles;     ///< arc and weight, ascending
-    std::function<std::array<double, 2>(double)> at;      ///< inclination, lambda times tension
-    std::function<double(double)> density, weight_below;  ///< of the arc, without particles
-    bool is_held = false;                                 ///< whether the lower end is held too
+    std::vector<double> steps{};   ///< ends of steps, ascending, with a smooth shape between
+    std::vector<double> pieces{};  ///< ends of pieces of the density; empty if uniform
+    std::vector<std::pair<double, double>> particles{};       ///< arc and weight, ascending
+    std::function<std::array<double, 2>(double)> at{};        ///< inclination, lambda times tension
+    std::function<double(double)> density{}, weight_below{};  ///< of the arc, without particles
+    bool is_held = false;                                     ///< whether the lower end is held too
 };
 
 REVCHAIN_LAZY
