@@ -93,7 +93,7 @@ inline constexpr std::array<std::string_view, 4> strike_status_names{"strikes", 
 /// How bell and clapper are released, at rest. Angles in rad.
 struct StrikeStart {
     double clearance;  ///< angle of the clapper in the bell from the middle to contact, below pi/2
-    /// Of the bell from its lowest position, 0 to pi. If left out, the bell falls from the balance,
+    /// Angle of the bell from its lowest position, 0 to pi. If left out, the bell falls from the balance,
     /// mouth up, in a full circle; it starts 1e-4 from the balance.
     std::optional<double> amplitude{};
     /// Angle of the clapper in the bell, towards the lower side; at +-clearance it rests on that
@@ -110,8 +110,8 @@ struct Strike {
     double bell_angle;  ///< of the bell past its lowest position, rad
     double relative_speed;  ///< of the clapper in the bell, rad/s, > 0 towards the leading side
     double time;            ///< after the start, s
-    /// Of bell_angle in rad, and of the two others relative to their size; infinite if rounding
-    /// decides whether or where the clapper strikes.
+    /// Estimated error: of `bell_angle` in rad, of `relative_speed` and `time` as a part of each.
+    /// It is infinite if rounding decides whether or where the clapper strikes.
     double error_estimate;
 };
 

@@ -30,9 +30,9 @@
 ///
 /// Arc lengths are measured from the free end. `CordOptions` has the weight, the density (a power
 /// of the arc length, or a function of it), weights of particles on the cord, and a particle or a
-/// bob that turns at its end. `steady_shapes` and its results are
-/// declared in finite/cord/continuous_chain.hpp, which needs no GSL. For a cord held at both ends
-/// see `Held` (held.hpp). Greenhill (1908) §4; closed forms in special/heavy_chain.hpp,
+/// bob that turns at its end. `steady_shapes` and its results are declared in
+/// finite/cord/continuous_chain.hpp, which needs no GSL. For a cord held at both ends see `Held`
+/// (held.hpp). Greenhill (1908) §4; closed forms in special/heavy_chain.hpp,
 /// special/tapered_chain.hpp and special/tip_mass.hpp.
 namespace revchain::inline REVCHAIN_BUILD {
 
@@ -66,8 +66,7 @@ struct CordModes {
     [[nodiscard]] Vector<double> nodes(Index j) const;
     /// Arc lengths at which the mode is vertical, ascending, one above each node: the part below
     /// has its centre of gravity on the axis. Where the cord turns back at a particle, that is the
-    /// place. Between held ends, one is below each node and one
-    /// below the upper end.
+    /// place. Between held ends, one is below each node and one below the upper end.
     [[nodiscard]] Vector<double> vertical_points(Index j) const;
     /// n = sqrt(g / lambda), rad/s.
     Vector<double> angular_speed(double gravity = conical_pendulum::standard_gravity) const;
@@ -93,13 +92,14 @@ struct CordModesOptions {
 /// they are zeros of a cross product of Bessel functions, to 2 ulp. All others use power series, to
 /// 4e-15 (tests/cpp/cord.cpp). `error_bound` has these figures; it was measured, for exponents from
 /// -0.99 to 100. For a density function that jumps or is less accurate it is 2e-15 plus twice
-/// `LineDensity::error` plus `rounding_at_jumps`. With particles or a bob it is larger by 3 ulp times
-/// the relative change of the height by that of a particle's place, the largest: 1e-14 as a rule
-/// (10,000 cords with weights 1e16 apart, tests/cpp/cord_particles.cpp). Offsets and slopes are within 1e-15 times the
-/// mode number of the largest one, with series within 1e-14. Cost: a closed form takes 0.01 to 15
-/// microseconds a mode; power series take 1 ms for each mode up to the last one requested. Throws
-/// InvalidArgument as `modes` of a chain, for `all_modes` (there are infinitely many), and with
-/// series for modes above number 1e5, a density too rough or a tip too heavy.
+/// `LineDensity::error` plus `rounding_at_jumps`. With particles or a bob it is larger by 3 ulp
+/// times the relative change of the height by that of a particle's place, the largest: 1e-14 as a
+/// rule (10,000 cords with weights 1e16 apart, tests/cpp/cord_particles.cpp). Offsets and slopes
+/// are within 1e-15 times the mode number of the largest one, with series within 1e-14. Cost: a
+/// closed form takes 0.01 to 15 microseconds a mode; power series take 1 ms for each mode up to the
+/// last one requested. Throws InvalidArgument as `modes` of a chain, for `all_modes` (there are
+/// infinitely many), and with series for modes above number 1e5, a density too rough or a tip too
+/// heavy.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordModes modes(const Cord& cord, const CordModesOptions& options = {});
 

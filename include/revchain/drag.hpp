@@ -34,8 +34,8 @@ struct Drag {
 
 struct DragShapeOptions {
     double angular_speed = 0;  ///< rad/s, negative: backward
-    /// Of the shape without drag that is followed while the drag grows. Absent: the shape that
-    /// begins at rest, followed while the speed grows in the air.
+    /// Number of half waves of a shape without drag, from which the drag then grows. If left out,
+    /// the chain starts at rest, and its speed grows in the air.
     std::optional<int> half_waves{};
     double gravity = conical_pendulum::standard_gravity;
 };

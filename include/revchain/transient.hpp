@@ -31,8 +31,9 @@ struct SupportMotion {
     Given given = Given::acceleration;
     std::vector<double> time{};   ///< >= 0; before the first and after the last no acceleration
     std::vector<double> value{};  ///< for each time. The first offset is 0 unless offsets are given
-    /// For offsets: true if the support rests before the first time and after the last. If false, the
-    /// first two pieces are one cubic, as are the last two, and the velocities at the ends go on.
+    /// For offsets: true if the support rests before the first time and after the last. If false, it
+    /// goes on with the velocities at the ends. One cubic then holds over the first two pieces, and
+    /// one over the last two.
     bool rests = true;
 };
 

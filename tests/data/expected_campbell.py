@@ -96,7 +96,7 @@ def frequencies(scene, speed, start):
 
 
 def crossings(scene):
-    """Order, number of the frequency and speed of each crossing in the range asked for."""
+    """The crossings in the range asked for: each as its order, the number of its frequency, and its speed."""
     ask = scene["ask"]["campbell"]
     assert ask.get("frame", "free") == "free" and ask.get("half_waves", 1) == 1
     low, high = (number(ask["angular_speed"][end]) for end in ("from", "to"))

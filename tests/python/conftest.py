@@ -118,6 +118,20 @@ def worst_in_bounds() -> Callable:
 
 
 @pytest.fixture
+def run(capsys):
+    """Run a command line in this process: exit code, stdout, stderr."""
+    app = pytest.importorskip("revchain.cli.app")
+
+    def call(*arguments):
+        code = app.run([str(argument) for argument in arguments])
+        captured = capsys.readouterr()
+        assert "Traceback" not in captured.err
+        return code, captured.out, captured.err
+
+    return call
+
+
+@pytest.fixture
 def python(tmp_path) -> Callable:
     """Run a program in a fresh interpreter, in an empty folder, warnings being errors."""
 

@@ -80,19 +80,6 @@ def in_a_folder_of_its_own(tmp_path, monkeypatch):
         Path(name).write_text(text)
 
 
-@pytest.fixture
-def run(capsys):
-    """Run a command in this process: exit code, stdout, stderr."""
-
-    def call(*arguments):
-        code = _cli.run([str(argument) for argument in arguments])
-        captured = capsys.readouterr()
-        assert "Traceback" not in captured.err
-        return code, captured.out, captured.err
-
-    return call
-
-
 def files_in(folder):
     return sorted(path.name for path in folder.iterdir())
 

@@ -20,7 +20,7 @@ _spec.loader.exec_module(expected_cords)
 
 
 class Pieces(expected_cords.Pieces):
-    """Of a `Cord`."""
+    """The reference for a `Cord`, from which it takes its numbers."""
 
     def __init__(self, cord):
         bob = cord.tip_centroid, cord.tip_radius_of_gyration

@@ -55,7 +55,7 @@ class Angles:
         return pin[1:, None, :] + (self.length[:, None] * share)[..., None] * u[:, None, :], u
 
     def potential(self, q):
-        """Of gravity and centrifugal force, with each body as two points at its radius of gyration along the link."""
+        """Potential of gravity and centrifugal force. Each body is two points on its link, a radius of gyration from its centre."""
         total = 0
         for sign in (-1, 1):
             where = ((self.centroid + sign * self.gyration) / self.length)[:, None]

@@ -11,7 +11,6 @@ import pytest
 import revchain as rc
 
 pytest.importorskip("typer")
-_cli = pytest.importorskip("revchain.cli.app")
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 PORTER, CHAIR = SCENES / "porter_governor.toml", SCENES / "chair_o_plane.toml"
@@ -22,18 +21,9 @@ HARTNELL = {
 }  # fmt: skip
 
 
-@pytest.fixture
-def run(capsys, tmp_path, monkeypatch):
-    """Run a command in this process, in an empty folder: exit code, stdout, stderr."""
+@pytest.fixture(autouse=True)
+def empty_folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-
-    def call(*arguments):
-        code = _cli.run([str(argument) for argument in arguments])
-        captured = capsys.readouterr()
-        assert "Traceback" not in captured.err
-        return code, captured.out, captured.err
-
-    return call
 
 
 def test_every_number_of_a_governor():

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 import revchain as rc
-from revchain.cli import app as _cli
 
 LINKS = [{"mass": 0.5, "length": 0.5, "repeat": 2}]
 CAROUSEL = {"links": [{"mass": 80, "length": 4.0}], "support": {"radius": 2.0}}
@@ -49,16 +48,6 @@ repeat = 2
 offset = ["2 cm", 0]
 time = {to = "5 s", steps = 51}
 """
-
-
-@pytest.fixture
-def run(capsys):
-    def call(*arguments):
-        code = _cli.run([str(argument) for argument in arguments])
-        captured = capsys.readouterr()
-        return code, captured.out, captured.err
-
-    return call
 
 
 def test_what_a_scene_asks_is_what_the_functions_give():

@@ -23,7 +23,6 @@ import pytest
 from studies import GOVERNOR, GYROSTAT, UNIFORM, normal, uniform, words
 
 import revchain as rc
-from revchain.cli import app as _cli
 from revchain.plots.sweep import plot_sweep, why_not_drawn
 from revchain.scenes import scene as _scene
 from revchain.scenes.scene import json_schema
@@ -48,19 +47,6 @@ BODIES = {
 def in_a_folder_of_its_own(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "100")
-
-
-@pytest.fixture
-def run(capsys):
-    """Run a command in this process: exit code, stdout, stderr."""
-
-    def call(*arguments):
-        code = _cli.run([str(argument) for argument in arguments])
-        captured = capsys.readouterr()
-        assert "Traceback" not in captured.err
-        return code, captured.out, captured.err
-
-    return call
 
 
 def study(scene, vary, **more):

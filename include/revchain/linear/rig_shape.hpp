@@ -16,8 +16,7 @@ struct RigShapeFinder {
     Index idle = 0;  ///< the number of lowest pins that the pencil omits
     pencil::SignedPencil<RigWord> sense;
     std::vector<RigWord> roots;
-    /// The same pencil as elements: with them eight shapes are found at a time, without them (null)
-    /// one.
+    /// The same pencil as elements, with which eight shapes are found at a time. Null: one at a time.
     std::shared_ptr<const pencil::ElementPencil<RigWord, Spins>> elements{};
 
     /// Returns shapes of `count` modes from index `from` on; see `found_shapes`.

@@ -184,10 +184,10 @@ inline std::vector<GovernorPoint> SleeveGovernor::equilibria(double speed, bool*
     const auto add_at_reach = [&](double low, double high) {
         const double a = std::asin(low), far = std::asin(std::min(high, 1.0));
         if (!(exact(a).first < 0)) return;
-        const double b = halved(a, far, [&](double angle) {
-                             return Motion::reaches(d, std::sin(angle)) ? -1 : 1;
-                         }).first;
-        const double end = Motion::reaches(d, std::sin(far)) ? far : b;
+        const auto side = [&](double angle) {
+            return Motion::reaches(d, std::sin(angle)) ? -1 : 1;
+        };
+        const double end = side(far) < 0 ? far : halved(a, far, side).first;
         if (end > a && exact(end).first > 0)
             found.push_back(at(zero_between(a, end, exact), speed));
         else

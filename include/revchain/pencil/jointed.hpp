@@ -21,7 +21,7 @@ struct JointFactors {
     F stiffness{}, spin{}, damping{}, mass{};
 };
 
-/// What the mass and the drag of an element add at its two pins.
+/// The entries that the mass or the drag of an element adds to a matrix over its two pins.
 template <class F>
 struct Carried {
     F lower, cross, upper;

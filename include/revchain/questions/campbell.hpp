@@ -11,7 +11,7 @@
 #include "revchain/numeric/progress.hpp"
 #include "revchain/numeric/status.hpp"
 #include "revchain/numeric/zero_between.hpp"
-#include "revchain/steady_shapes.hpp"
+#include "revchain/questions/farthest_out.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
@@ -25,13 +25,9 @@ struct SmallMotion {
 template <class System>
 SmallMotion small_motion(const System& system, const CampbellOptions& options, double speed) {
     check_interrupt();
-    const auto found =
-        steady_shapes(system, {.angular_speed = speed, .gravity = options.gravity}).shapes;
-    const SteadyShape* chosen = nullptr;
-    for (const SteadyShape& shape : found)
-        if (shape.half_waves == options.half_waves &&
-            (chosen == nullptr || shape.offset[0] > chosen->offset[0]))
-            chosen = &shape;
+    const SteadyShapes found =
+        steady_shapes(system, {.angular_speed = speed, .gravity = options.gravity});
+    const SteadyShape* chosen = farthest_out(found, options.half_waves);
     if (chosen == nullptr) return {};
     const Stability s = [&] {
         if constexpr (std::is_same_v<System, Rig>)

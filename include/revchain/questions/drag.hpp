@@ -10,7 +10,7 @@
 #include "revchain/drag.hpp"
 #include "revchain/finite/shapes/space_balance.hpp"
 #include "revchain/numeric/arc_step.hpp"
-#include "revchain/steady_shapes.hpp"
+#include "revchain/questions/farthest_out.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
 
@@ -33,7 +33,8 @@ class DragWalk {
     /// Moves the point to the end of the way. Folds are passed; where the way then leads back to
     /// its beginning, the point ends at the first one.
     DragStatus run(DragPoint& at) {
-        if (!corrected(at, nullptr, 1e300) || !directed(at, nullptr)) return DragStatus::stalled;
+        const std::optional<Corrected> start = corrected(at, nullptr, 1e300);
+        if (!start || !directed(at, start->slope, nullptr)) return DragStatus::stalled;
         double step = 0.05;
         std::optional<DragPoint> first_fold;
         while (at.factor < 1) {
@@ -62,24 +63,30 @@ class DragWalk {
         DragPoint next = at;
         next.figure = moved(at.figure, at.tangent, length);
         next.factor = last ? 1 : at.factor + length * at.factor_tangent;
-        const std::optional<double> first =
+        const std::optional<Corrected> found =
             corrected(next, last ? nullptr : &at, 0.2 * std::min(length, 0.5));
-        if (!first || next.factor > 1 || !directed(next, &at)) return {};
+        if (!found || next.factor > 1 || !directed(next, found->slope, &at)) return {};
         const bool turned = next.factor_tangent * at.factor_tangent < 0;
         if (turned && length > closest_to_fold) return {};
         if (!turned && !((next.factor - at.factor) * at.factor_tangent > 0)) return {};  // a jump
         at = std::move(next);
-        const double curved = *first / std::max(length, 1e-300);
+        const double curved = found->first / std::max(length, 1e-300);
         return std::clamp(0.5 / std::sqrt(curved + 1e-2), 0.5, 3.0);
     }
 
+    struct Corrected {
+        double first;        ///< size of the first correction
+        FigureChange slope;  ///< derivative of the figure to the factor, 1e-11 from the point
+    };
+
     /// Brings a point onto the curve, across the direction at `along` or, without it, at its
-    /// factor. Returns the size of the first correction if it is at most `limit` and the later
-    /// ones shrink quickly.
-    std::optional<double> corrected(DragPoint& point, const DragPoint* along, double limit) const {
+    /// factor. Returns nothing if the first correction is above `limit` or the later ones do not
+    /// shrink quickly.
+    std::optional<Corrected> corrected(DragPoint& point, const DragPoint* along,
+                                       double limit) const {
         double first = 0, last = limit;
         for (int round = 0; round < 12; ++round) {
-            const SpaceBalance::Solved found = balance_->solve(point.figure, point.factor, *rule_);
+            SpaceBalance::Solved found = balance_->solve(point.figure, point.factor, *rule_);
             FigureChange change = found.correction;
             double shift = 0;
             if (along != nullptr) {
@@ -91,7 +98,7 @@ class DragWalk {
             if (!(size <= last)) return {};
             if (round == 0) first = size;
             point.figure = moved(std::move(point.figure), change), point.factor += shift;
-            if (size < 1e-11) return first;
+            if (size < 1e-11) return Corrected{first, std::move(found.slope)};
             last = std::max(0.5 * size, 1e-12);
         }
         return {};
@@ -99,8 +106,7 @@ class DragWalk {
 
     /// Sets the direction of the curve, so that it continues that at `before`. Returns false if it
     /// turns by more than half a radian.
-    bool directed(DragPoint& point, const DragPoint* before) const {
-        FigureChange slope = balance_->solve(point.figure, point.factor, *rule_).slope;
+    bool directed(DragPoint& point, const FigureChange& slope, const DragPoint* before) const {
         const double size = std::sqrt(dot(slope, slope) + 1);
         if (!(size < 1e300)) return false;
         double cosine = 1, sense = 1;
@@ -144,11 +150,7 @@ finite::Figure figure_without_drag(const Rig& rig, const finite::RiggedLinks& li
     }
     const SteadyShapes found = steady_shapes(
         rig, RigShapesOptions{.angular_speed = options.angular_speed, .gravity = options.gravity});
-    const SteadyShape* farthest = nullptr;
-    for (const SteadyShape& shape : found.shapes)
-        if (shape.half_waves == *options.half_waves &&
-            (farthest == nullptr || shape.offset[0] > farthest->offset[0]))
-            farthest = &shape;
+    const SteadyShape* farthest = farthest_out(found, *options.half_waves);
     if (farthest == nullptr)
         throw_invalid("drag_shape",
                       "there is no shape without drag with this number of half waves at this speed",

@@ -67,15 +67,16 @@ class LineDensity {
     /// not above `least_place` and below the length.
     LineDensity with_particles(double factor, const std::map<double, double>& particles) const {
         std::vector<Piece> pieces = pieces_;
-        for (Piece& piece : pieces)
+        for (Piece& piece : pieces) {
+            piece.doubt *= factor;
             for (double& c : piece.factor) c *= factor;
-        for (Piece& piece : pieces) piece.doubt *= factor;
+        }
         for (const auto& [s, weight] : particles) {
             require_inside("weights", s);
             detail::require_not_negative("LineDensity", "weight of a particle", weight);
             auto at = pieces.begin();
-            while (end(*at) < s * (1 - 0x1p-48)) ++at;
-            if (end(*at) > s * (1 + 0x1p-48)) at = split(pieces, at, s);
+            while (at->end() < s * (1 - 0x1p-48)) ++at;
+            if (at->end() > s * (1 + 0x1p-48)) at = split(pieces, at, s);
             at->particle += weight;
         }
         return {length_, std::move(pieces)};
@@ -90,7 +91,7 @@ class LineDensity {
         for (std::size_t i = 0; i < pieces_.size(); ++i) {
             doubt += pieces_[i].doubt;
             const double below = i + 1 < pieces_.size() ? hung(pieces_[i + 1]) : total_;
-            if (end(pieces_[i]) >= s * (1 - 1e-9)) largest = std::max(largest, doubt / below);
+            if (pieces_[i].end() >= s * (1 - 1e-9)) largest = std::max(largest, doubt / below);
         }
         return largest;
     }
@@ -100,9 +101,9 @@ class LineDensity {
     double rounding_at_jumps(double s) const {
         double moved = 0, largest = 0;
         for (std::size_t i = 1; i < pieces_.size(); ++i) {
-            const double at = end(pieces_[i - 1]);
-            const double jump =
-                polynomial(pieces_[i].factor, -1) - polynomial(pieces_[i - 1].factor, 1);
+            const double at = pieces_[i - 1].end();
+            const double jump = Piece::polynomial(pieces_[i].factor, -1) -
+                                Piece::polynomial(pieces_[i - 1].factor, 1);
             moved += std::abs(jump) * at * epsilon<double>();
             largest = std::max(
                 largest, moved / std::max(hung(pieces_[i]), weight_below(std::min(s, length_))));
@@ -113,14 +114,14 @@ class LineDensity {
 
     /// The end of the piece that contains s; infinity beyond the chain.
     double end_of_piece(double s) const {
-        return nudged(s) >= length_ ? std::numeric_limits<double>::infinity() : end(piece_at(s));
+        return nudged(s) >= length_ ? std::numeric_limits<double>::infinity() : piece_at(s).end();
     }
     /// Coefficients of the density in powers of the distance from s, on the piece to the right of
     /// s.
     Coefficients about(double s) const {
         if (nudged(s) >= length_) return {mean()};
         const Piece& piece = piece_at(s);
-        if (piece.power != 0) return {piece.factor[0] * std::pow(s / end(piece), piece.power)};
+        if (piece.power != 0) return {piece.factor[0] * std::pow(s / piece.end(), piece.power)};
         const double t = (s - piece.middle) / piece.half;
         Coefficients c = piece.factor;
         shift_to(c, t);
@@ -143,7 +144,7 @@ class LineDensity {
         double sum = 0;
         if (nudged(from) >= length_) return sum;
         for (const Piece* piece = &piece_at(from);
-             piece <= &pieces_.back() && end(*piece) <= nudged(to); ++piece)
+             piece <= &pieces_.back() && piece->end() <= nudged(to); ++piece)
             sum += piece->particle;
         return sum;
     }
@@ -154,13 +155,13 @@ class LineDensity {
         if (s == 0) return 0;
         const Piece& piece = piece_at(s);
         if (piece.power != 0)
-            return piece.factor[0] * s / (piece.power + 1) * std::pow(s / end(piece), piece.power);
+            return piece.factor[0] * s / (piece.power + 1) * std::pow(s / piece.end(), piece.power);
         // near the free end the weight needs a small relative error
-        if (&piece == &pieces_.front()) return polynomial(at_tip_, s) * s;
+        if (&piece == &pieces_.front()) return Piece::polynomial(at_tip_, s) * s;
         return piece.below + weight_within(piece, (s - piece.middle) / piece.half);
     }
     /// The point below which the density is a power of s instead of a polynomial; mostly 0.
-    double end_of_power() const { return pieces_.front().power != 0 ? end(pieces_.front()) : 0.0; }
+    double end_of_power() const { return pieces_.front().power != 0 ? pieces_.front().end() : 0.0; }
     /// First moment of the chain below s about the free end, divided by s times the weight below s,
     /// where no particle is below s. The density is taken as a power of s, which is right to first
     /// order near the free end.
@@ -189,10 +190,10 @@ class LineDensity {
             positive &= piece.particle >= 0 && std::isfinite(piece.particle);
             for (int i = 0; piece.power == 0 && i <= degree; ++i) {
                 const double value =
-                    polynomial(piece.factor, std::cos(std::numbers::pi * i / degree));
+                    Piece::polynomial(piece.factor, std::cos(std::numbers::pi * i / degree));
                 positive &= value >= -10 * detail::DensityFit::rounding * size;
             }
-            at = end(piece);
+            at = piece.end();
             if (!positive)
                 detail::throw_invalid(
                     "LineDensity", "weight per length must be positive and finite from " +
@@ -230,7 +231,7 @@ class LineDensity {
     static std::vector<Piece>::iterator split(std::vector<Piece>& pieces,
                                               std::vector<Piece>::iterator at, double s) {
         const Piece whole = *at;
-        const double low = whole.middle - whole.half, high = end(whole);
+        const double low = whole.middle - whole.half, high = whole.end();
         const auto part = [&](double from, double to) {
             Piece piece = whole;
             piece.middle = from + (to - from) / 2, piece.half = (to - from) / 2;
@@ -247,23 +248,19 @@ class LineDensity {
         *at = part(low, s);
         return pieces.insert(at + 1, upper) - 1;
     }
-    /// Changes the coefficients of powers of t to those of powers of t - from.
+    /// Turns the coefficients of a polynomial of t into those of the same polynomial of t - from.
     static void shift_to(Coefficients& c, double from) {
         for (std::size_t i = 0; i < degree; ++i)
             for (std::size_t k = degree; k-- > i;) c[k] += from * c[k + 1];
     }
 
-    static double end(const Piece& piece) { return piece.end(); }
     /// Moves s up a little, so that the end of a piece, even if rounded, belongs to the next piece.
     static double nudged(double s) { return s * (1 + 0x1p-48); }
     const Piece& piece_at(double s) const {
         const auto after =
             std::upper_bound(pieces_.begin(), pieces_.end(), nudged(s),
-                             [](double x, const Piece& piece) { return x < end(piece); });
+                             [](double x, const Piece& piece) { return x < piece.end(); });
         return after == pieces_.end() ? pieces_.back() : *after;
-    }
-    static double polynomial(const Coefficients& factor, double t) {
-        return detail::DensityPiece::polynomial(factor, t);
     }
     /// Weight of the piece from its left end to t.
     static double weight_within(const Piece& piece, double t) {

@@ -93,11 +93,11 @@ def plot_drag_shape(shape: DragShape, ax: Axes | None = None, *, view: str | Non
 
 def _draw_from(shape: DragShape, ax: Axes, view: str) -> Axes:
     x, y, z = shape.position.T
-    across, marker = (y, "v") if view == "above" else (-z, "v")
+    across = y if view == "above" else -z
     dots = "o" if x.size <= MOST_PINS_AS_DOTS else ""
     ax.plot([0.0, x[-1]], [0.0, across[-1]], **ARM)
     ax.plot(x, across, color=house(0), linewidth=1.4, marker=dots, markersize=3.0)
-    ax.plot(x[-1], across[-1], marker=marker, color="black", markersize=7.0, clip_on=False)
+    ax.plot(x[-1], across[-1], marker="v", color="black", markersize=7.0, clip_on=False)
     ax.set_aspect("equal", adjustable="datalim")
     if view == "side":
         ax.axvline(0.0, **AXIS)

@@ -329,7 +329,7 @@ def _rig(chain: Chain | None, scene: Tables, numbers: Numbers) -> Rig | None:
             fluid |= {name: getattr(chain, name)[first] for name in ("centroid", "radius_of_gyration")}
         fluids.append(fluid | inside.of("displaced").read(link.displaced))
         pins.append({"stiffness": 0.0, "damping": 0.0} | inside.of("pin").read(link.pin, "pin_"))
-        drags.append({} if link.drag is UNSET else {"drag": inside.value("drag", link.drag, "drag", "not negative")})
+        drags.append(0.0 if link.drag is UNSET else inside.value("drag", link.drag, "drag", "not negative"))
         if scene.fluid == "turning" and fluids[-1][added] > 0:
             inside.refuse("displaced", f"must have no {added} in a fluid that turns with the chain")
     if numbers.problems or chain is None:
@@ -349,7 +349,7 @@ def _rig(chain: Chain | None, scene: Tables, numbers: Numbers) -> Rig | None:
                 del columns["radius_of_gyration"]  # that of the links, with all stored digits
             given["displaced"] = Displaced(**columns)
         if any(link.drag is not UNSET for _, link in links):
-            given["drag"] = np.repeat([read.get("drag", 0.0) for read in drags], repeats)
+            given["drag"] = np.repeat(drags, repeats)
         if any(link.pin is not UNSET for _, link in links):
             given["pins"] = Pin(**_columns(pins, repeats))
         return Rig(chain, **given)

@@ -81,7 +81,7 @@ class Pin(Table, frozen=True):
 
 
 class AirDrag(Table, frozen=True):
-    """What the drag of air on a link depends on, for [ask.drag]: its diameter, a body at its centre of gravity, or both."""
+    """Drag of air on a link, for [ask.drag]: on the link as a cylinder, on a body at its centre of gravity, or on both."""
 
     coefficient: Annotated[NotNegative, says("Drag coefficient: 1.0 to 1.2 for a cylinder, 0.5 for a sphere.")]
     diameter: Annotated[MaybeNotNegative, says("Diameter of the link as a cylinder (m).")] = UNSET

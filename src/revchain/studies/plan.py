@@ -48,7 +48,7 @@ def _of_each(name: str, link: int, shapes: Any) -> list[Any]:
 
 
 def _between_stops(name: str, found: Any) -> float:
-    """A number of a governor, which is the answer itself where no speed was asked for."""
+    """A number of a governor. The answer to a question without a speed is the governor itself."""
     return getattr(getattr(found, "governor", found), name)  # type: ignore[no-any-return]
 
 

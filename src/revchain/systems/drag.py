@@ -3,11 +3,10 @@
 
 from __future__ import annotations
 
-import numpy as np
 from numpy.typing import ArrayLike
 
-from .numbers import floats, read_only, refuse_where
-from .rig import _Fitting
+from .numbers import floats, read_only
+from .rig import _Fitting, check_columns, refuse_empty
 
 STANDARD_DENSITY = 1.225
 
@@ -69,11 +68,9 @@ class Drag(_Fitting):
         given = {"coefficient": coefficient, "diameter": diameter, "area": area, "body_coefficient": body_coefficient}
         columns = {name: floats(caller, name, value) for name, value in given.items() if value is not None}
         columns["density"] = floats(caller, "density", density, "air_density")
+        check_columns(caller, columns)
         for name, column in columns.items():
-            refuse_where(~np.isfinite(column), column, f"{caller}: {name} must be finite")
-            refuse_where(column < 0, column, f"{caller}: {name} must not be negative")
-            if not column.size:
-                raise ValueError(f"{caller}: {name} must have a number for each link, got none")
+            refuse_empty(caller, name, column)
         if columns["density"].ndim:
             raise ValueError(f"{caller}: density must be one number, got an array of shape {columns['density'].shape}")
         if columns["density"] == STANDARD_DENSITY:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -60,6 +61,20 @@ class _Fitting(Unchangeable):
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _fitting, (type(self), self._given)
+
+
+def check_columns(caller: str, columns: Mapping[str, Floats], signed: tuple[str, ...] = ()) -> None:
+    """Raise a ValueError for a number that is not finite or, but for the `signed` columns, is negative."""
+    for name, column in columns.items():
+        refuse_where(~np.isfinite(column), column, f"{caller}: {name} must be finite")
+        if name not in signed:
+            refuse_where(column < 0, column, f"{caller}: {name} must not be negative")
+
+
+def refuse_empty(caller: str, name: str, column: Floats) -> None:
+    """Raise a ValueError for an array without a number."""
+    if not column.size:
+        raise ValueError(f"{caller}: {name} must have a number for each link, got none")
 
 
 def _alike(one: Any, other: Any) -> bool:
@@ -224,11 +239,9 @@ class Pin(_Fitting):
         caller = "revchain.Pin"
         given = {"stiffness": stiffness, "damping": damping}
         columns = {name: floats(caller, name, value, f"pin_{name}") for name, value in given.items()}
+        check_columns(caller, columns)
         for name, column in columns.items():
-            refuse_where(~np.isfinite(column), column, f"{caller}: {name} must be finite")
-            refuse_where(column < 0, column, f"{caller}: {name} must not be negative")
-            if not column.size:
-                raise ValueError(f"{caller}: {name} must have a number for each link, got none")
+            refuse_empty(caller, name, column)
         _set(self, "_given", {name: read_only(column) for name, column in columns.items() if column.any()})
 
 
@@ -300,10 +313,7 @@ class Flywheel(_Fitting):
         else:
             given = {"momentum": 0.0 if momentum is None else momentum, "axial_moment": axial_moment}
         columns = {name: floats(caller, name, value) for name, value in given.items() if value is not None}
-        for name, column in columns.items():
-            refuse_where(~np.isfinite(column), column, f"{caller}: {name} must be finite")
-            if name not in ("spin", "momentum"):
-                refuse_where(column < 0, column, f"{caller}: {name} must not be negative")
+        check_columns(caller, columns, signed=("spin", "momentum"))
         if "axial_moment" in columns and not columns["axial_moment"].any():
             del columns["axial_moment"]
         _set(self, "_given", {name: read_only(column) for name, column in columns.items()})
@@ -399,10 +409,7 @@ class Displaced(_Fitting):
             "added_weight": added_weight,
         }
         columns = {name: floats(caller, name, value) for name, value in given.items() if value is not None}
-        for name, column in columns.items():
-            refuse_where(~np.isfinite(column), column, f"{caller}: {name} must be finite")
-            if name != "centroid":
-                refuse_where(column < 0, column, f"{caller}: {name} must not be negative")
+        check_columns(caller, columns, signed=("centroid",))
         _set(self, "_given", {name: read_only(column) for name, column in columns.items()})
 
     @property
@@ -531,8 +538,7 @@ class Rig(System):
         _set(self, "pins", pins if pins is not None and pins._given else None)
         dragged = None if drag is None else floats(caller, "drag", drag)
         if dragged is not None:
-            refuse_where(~np.isfinite(dragged), dragged, f"{caller}: drag must be finite")
-            refuse_where(dragged < 0, dragged, f"{caller}: drag must not be negative")
+            check_columns(caller, {"drag": dragged})
             dragged = read_only(_column(caller, "drag", dragged, chain.size)) if dragged.any() else None
         _set(self, "drag", dragged)
         _set(self, "fluid", fluid)
