@@ -33,6 +33,7 @@ _EFFECT = 1e-9  # smallest relative effect on a speed of a relative change of 1 
 _EXTREME = 1e100  # an uncertainty over its value, or less than 1 / it, whose square would overflow
 _PART = 1e-6  # smallest part of a datum in a combination
 _FIXED = 1e-9  # 1 less the leverage of a measurement that decides a datum alone
+_ROUNDED = 1e-10  # relative residuals that are errors of rounding
 _CHANCE = 0.01  # how often a fit with a correct model says that a measurement disagrees
 
 
@@ -294,7 +295,8 @@ def _fitted(model: _Model, free: Floats, converged: bool, known: _Known, deviati
     covariance = known.covariance * np.outer(inner, inner) * model.scale**2
     off, slopes = model.off(free) / model.scale, model.slopes(free)
     left, freedom = float((off**2).sum()), len(model.number) - known.rank
-    leverage = np.clip(np.einsum("ik,kl,il->i", slopes, known.inverse, slopes), 0.0, 1.0)
+    inverse = _Known(slopes, model.measured / model.deviation).inverse
+    leverage = np.clip(np.einsum("ik,kl,il->i", slopes, inverse, slopes), 0.0, 1.0)
     standardized, limit = _standardized(-off, leverage, freedom, deviation is None)
     if deviation is None:
         spread = left / freedom if freedom else math.nan
@@ -336,7 +338,7 @@ def _standardized(residual: Floats, leverage: Floats, freedom: int, estimated: b
     standardized, law = residual / np.sqrt(share), np.inf
     if estimated:
         law = freedom - 1
-        if law < 1:
+        if law < 1 or (residual**2).sum() < _ROUNDED**2:
             return np.full(len(residual), np.nan), math.nan
         others = np.maximum((residual**2).sum() - standardized**2, 0.0) / law
         with np.errstate(divide="ignore", invalid="ignore"):  # no scatter at all

@@ -334,15 +334,18 @@ def _by_path(
     caller: str, modes: Modes, paths: Mapping[str, Any], given: dict[str, Any]
 ) -> dict[str, tuple[Datum, float]]:
     """The data of a dictionary by path, with their standard deviations."""
-    from ..systems.datum import datum_at, refuse_overlap
+    from ..systems.datum import datum_at
 
     if not isinstance(paths, Mapping):
         raise ValueError(f'{caller}: data must be a dictionary such as {{"links[load].mass": "5 %"}}, got {shown(paths)}')
     system: Any = modes.system
-    found = [datum_at(caller, system, path, modes.gravity, "data") for path in paths]
-    refuse_overlap(caller, found, "data")
-    deviations = {}
-    for datum, value in zip(found, paths.values(), strict=True):
+    deviations: dict[str, tuple[Datum, float]] = {}
+    known: dict[str, str] = {}
+    for path, value in paths.items():
+        datum = datum_at(caller, system, path, modes.gravity, "data")
+        if datum.path in known:
+            raise ValueError(f'{caller}: "{known[datum.path]}" and "{datum.said}" are the same number; leave one of them out')
+        known[datum.path] = datum.said
         name, _ = _rate(datum)
         if datum.rate is None and not system._is_cord:
             why = "the speeds have no derivative by it; change the datum and call modes again"
@@ -351,10 +354,10 @@ def _by_path(
             raise ValueError(f'{caller}: give either {min(both)} or "{datum.said}", got both')
         if not np.isfinite(datum.present):
             raise ValueError(f"{caller}: {datum.said} is for a support on a spring, and this one is firm; leave it out")
-        value = unpacked(value)
-        if isinstance(value, str) and value.strip().endswith("%"):
-            value = _part(f"{caller}: {datum.said}", value) * abs(datum.present)
-        size = real(caller, f"{datum.quantity} (deviation of {datum.said})", value)
+        size = unpacked(value)
+        if isinstance(size, str) and size.strip().endswith("%"):
+            size = _part(f"{caller}: {datum.said}", size) * abs(datum.present)
+        size = real(caller, f"{datum.quantity} (deviation of {datum.said})", size)
         if not 0 <= size < np.inf:
             raise ValueError(f"{caller}: {datum.said}: the deviation must be finite and not negative, got {shown(value)}")
         deviations[datum.said] = datum, size

@@ -206,8 +206,7 @@ class Study(Table, frozen=True):
         numbers.problems += [one for one in known if one not in inside]
         scene, base, find = self.scene, dict[str, Any](), tuple[str, ...]()
         vary = self.vary if isinstance(self.vary, dict) else {}
-        links = scene.links if isinstance(scene, Scene) and isinstance(scene.links, list) else []
-        names = [link.name for link in links]
+        names = [link.name for link in scene.links] if isinstance(scene, Scene) and isinstance(scene.links, list) else []
         each = [axis_of(key, table, Scene, names, numbers.of(joined("vary", key))) for key, table in vary.items()]
         axes = tuple(axis for axis in each if axis is not None)
         _refuse_twice(axes, numbers)

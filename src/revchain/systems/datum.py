@@ -130,15 +130,14 @@ def _counted(caller: str, system: Any, path: Any, argument: str) -> Any:
     return f"{parts[0]}[{system._base.size - 1 - parts[1]}].{parts[2]}"
 
 
-def refuse_overlap(caller: str, data: Iterable[Datum], argument: str = "vary") -> None:
+def refuse_overlap(caller: str, data: Iterable[Datum]) -> None:
     """Raise a ValueError if two data are the same number, or one changes the other."""
     before: list[Datum] = []
     for one in data:
         for other in before:
             if one.path == other.path or any(_contains(*pair) for pair in ((one.path, other.path), (other.path, one.path))):
                 raise ValueError(
-                    f'{caller}: {argument} has "{other.said}" and "{one.said}", which change the same number; leave one of '
-                    "them out"
+                    f'{caller}: vary has "{other.said}" and "{one.said}", which change the same number; leave one of them out'
                 )
         before.append(one)
 
