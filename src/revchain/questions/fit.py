@@ -95,7 +95,7 @@ def fit(
     scatter of the other measurements takes the place of u (externally studentized residual), which needs two degrees of
     freedom. The table says that the measurement with the largest one disagrees if it exceeds `Fitted.disagreement_limit`.
     If the model is correct, at most one fit in a hundred does so by chance (Bonferroni's inequality, for all measurements
-    together). To first order; Cook and Weisberg, *Residuals and Influence in Regression* (1982), sections 2.1 and 2.2.
+    together). To first order; Cook and Weisberg, *Residuals and Influence in Regression* (1982), chapter 2.
 
     Speeds depend on ratios of masses: those of a chain on a firm support cannot determine all its masses. Such
     combinations have singular values of the derivatives below 1e-8 of the largest; the result names them.
