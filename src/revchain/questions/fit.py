@@ -67,8 +67,8 @@ def fit(
     -------
     Fitted
         The new system; the values with standard uncertainties, covariance and correlation; residuals and chi-square; which
-        measurement disagrees with the others; the data that the measurements do not determine. Cost: 5 to 30 times that of the modes; each datum without derivatives
-        multiplies it by five.
+        measurement disagrees with the others; the data that the measurements do not determine. Cost: 5 to 30 times that of
+        the modes; each datum without derivatives multiplies it by five.
 
     Raises
     ------
@@ -166,7 +166,8 @@ class _Model:
     def at(self, free: Floats) -> tuple[Any, Speeds]:
         """The system and its speeds; a ValueError if such a system is impossible or lacks these modes."""
         if self.kept[0] != free.tobytes():
-            system, values = self.system, dict(zip([datum.said for datum in self.data], self.values(free).tolist(), strict=True))
+            paths = [datum.said for datum in self.data]
+            system, values = self.system, dict(zip(paths, self.values(free).tolist(), strict=True))
             gravity = values.pop("gravity", self.gravity)
             for path, value in values.items():
                 system = datum_at(_CALLER, system, path, gravity).change(value)
@@ -333,7 +334,7 @@ def _standardized(residual: Floats, leverage: Floats, freedom: int, estimated: b
     `residual` is divided by the uncertainties; if these are unknown (`estimated`), the residuals are studentized externally:
     by the scatter of the other measurements.
     """
-    free = 1 - leverage > _FIXED  # the fit passes through the others whatever they are
+    free = 1 - leverage > _FIXED  # the fit passes through the others, whatever was measured
     share = np.where(free, 1 - leverage, np.nan)
     standardized, law = residual / np.sqrt(share), np.inf
     if estimated:

@@ -104,7 +104,7 @@ class Fitted(Result, row="datum", title="Fitted: {summary}", notes=("{_lines}",)
     )
     disagreeing: Field[tuple[int, ...]] = Field(
         "Number of the mode whose measured speed disagrees with the others: its standardized residual is the largest and "
-        "exceeds `disagreement_limit`. Several modes if the measurements cannot tell which of them it is; empty if none does.",
+        "exceeds `disagreement_limit`. Several modes if the measurements cannot tell which one it is; empty if none does.",
         lambda f: f._most_unlike(),
         fact=True,
     )

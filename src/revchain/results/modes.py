@@ -522,8 +522,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         By the paths of the data:
 
         >>> crane = rc.Chain(mass=[2500, 400], length=[6, 24], names=["load", "hook block"])
-        >>> rc.modes(crane).uncertainty({"links[load].mass": "5 %", "links[hook block].length_in_proportion": "0.5 m"}).largest
-        ('links[hook block].length_in_proportion', 'links[load].mass')
+        >>> rc.modes(crane).uncertainty({"links[load].mass": "5 %", "links[hook block].length": "0.5 m"}).largest
+        ('links[hook block].length', 'links[load].mass')
         """
         from .sensitivity import uncertainty_of_modes
 

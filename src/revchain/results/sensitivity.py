@@ -149,7 +149,7 @@ class Sensitivity(Result):
             if isinstance(value, Sensitivity):
                 columns += _own(name, value, len(self))
             elif value.ndim == 2:
-                columns.append(Column(name, value, f"{name} of links[0]", axes=("link",), shown=value[:, 0]))
+                columns.append(Column(name, value, f"{name} of the lowest link", axes=("link",), shown=value[:, 0]))
             else:
                 columns.append(Column(name, value, name))
         return Sheet(self.row, f"Derivatives of {self.of}; of what there is for each link, the lowest is shown", columns)
@@ -211,8 +211,8 @@ class Uncertainty(Result, row="mode", title="Standard deviations"):
         "With a covariance a part may be negative."
     )
     largest: Field[tuple[str, ...]] = Field(
-        "For each mode the path of the datum that contributes most, such as ``'links[load].mass'``; empty if the mode is exact. "
-        "`tune` and `fit` accept these paths.",
+        "For each mode the path of the datum that contributes most, such as ``'links[load].mass'``; empty if the mode is "
+        "exact. `tune` and `fit` accept these paths.",
     )
     _largest_part: Field[list[str]] = Field(
         "`largest`, or that there is nothing.",
@@ -344,14 +344,15 @@ def _by_path(
     for path, value in paths.items():
         datum = datum_at(caller, system, path, modes.gravity, "data")
         if datum.path in known:
-            raise ValueError(f'{caller}: "{known[datum.path]}" and "{datum.said}" are the same number; leave one of them out')
+            both = f'"{known[datum.path]}" and "{datum.said}"'
+            raise ValueError(f"{caller}: {both} are the same number; leave one of them out")
         known[datum.path] = datum.said
         name, _ = _rate(datum)
         if datum.rate is None and not system._is_cord:
             why = "the speeds have no derivative by it; change the datum and call modes again"
             raise ValueError(f"{caller}: {datum.said}: {why}, got {shown(value)}")
-        if both := {name, datum.said} & given.keys():
-            raise ValueError(f'{caller}: give either {min(both)} or "{datum.said}", got both')
+        if twice := {name, datum.said} & given.keys():
+            raise ValueError(f'{caller}: give either {min(twice)} or "{datum.said}", got both')
         if not np.isfinite(datum.present):
             raise ValueError(f"{caller}: {datum.said} is for a support on a spring, and this one is firm; leave it out")
         size = unpacked(value)

@@ -72,7 +72,8 @@ class Study(Table, frozen=True):
 
     scene: Annotated[Scene | str, says("The scene, or the name of its file in the folder of this one.")]
     vary: Annotated[
-        dict[str, Vary], Meta(description="Values by path into the scene, such as links[load].mass or links[0].mass.", min_length=1)
+        dict[str, Vary],
+        Meta(description="Values by path into the scene, such as links[load].mass or links[0].mass.", min_length=1),
     ]
     schema_version: Annotated[Literal[1], says("Version of this format.")] = 1
     title: Annotated[str, says("Title in one line.")] = ""

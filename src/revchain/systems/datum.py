@@ -136,9 +136,8 @@ def refuse_overlap(caller: str, data: Iterable[Datum]) -> None:
     for one in data:
         for other in before:
             if one.path == other.path or any(_contains(*pair) for pair in ((one.path, other.path), (other.path, one.path))):
-                raise ValueError(
-                    f'{caller}: vary has "{other.said}" and "{one.said}", which change the same number; leave one of them out'
-                )
+                both = f'"{other.said}" and "{one.said}"'
+                raise ValueError(f"{caller}: vary has {both}, which change the same number; leave one of them out")
         before.append(one)
 
 

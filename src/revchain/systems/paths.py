@@ -42,7 +42,8 @@ def numbered(path: str, names: Sequence[str]) -> str:
         raise ValueError(f"{found[0]}: no link has a name; write an index such as {found[1]}[0]")
     lower = {one.lower().strip(): one for one in known}
     wanted = name.lower().strip()
-    near = get_close_matches(wanted, list(lower), n=1) or [one for one in lower if wanted and (wanted in one or one in wanted)]
+    near = get_close_matches(wanted, list(lower), n=1)
+    near = near or [one for one in lower if wanted and (wanted in one or one in wanted)]
     hint = f'did you mean "{lower[near[0]]}"? ' if near else ""
     listed = ", ".join(f'"{one}"' for one in known[:_MOST_NAMES]) + (" ..." if len(known) > _MOST_NAMES else "")
     raise ValueError(f'{found[0]}: no link is named "{name}"; {hint}the names are {listed}')
