@@ -648,7 +648,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
             lines.append("the trolley rolls freely: the system also moves as a whole, at speed 0, which is no mode of the list")
         if self.has_momentum:
             lines.append("negative speeds: backward, against wheels whose momentum is positive")
-        links = self.system._link_numbers[self.slack_link]
+        links = self.system._link_numbers[self.slack_link] if len(self.slack_link) else ()
         slack = [f"links[{k}] goes slack at {at:.6g} rad/s" for k, at in zip(links, self.slack_speed, strict=True)]
         lines += slack if len(slack) <= 5 else [*slack[:4], f"{len(slack) - 4} more go slack: slack_link, slack_speed"]
         if others := self.other_available:

@@ -260,7 +260,7 @@ def _chain_of_links(links: Links, order: Order, numbers: Numbers) -> Chain | Non
                 chain = chain.with_body(**{numbers.heavy: tip}, pin=first)
             if link.clamped:
                 chain = chain.clamped(first)
-        return Chain._wrap(chain._compiled, chain.by_mass, chain.names, order)
+        return chain if order == chain.order else Chain._wrap(chain._compiled, chain.by_mass, chain.names, order)
     except ValueError as error:
         numbers.problems.append(problem_of(error, "links", links))
         return None
