@@ -103,6 +103,8 @@ def test_indices_count_as_the_chain_was_listed():
         rc.tune(DOWN, vary="links[2].mass", angular_speed=1.0)
     shape = rc.steady_shapes(rc.Chain(mass=[1.0, 2.0], length=1.0, order="support first"), angular_speed=4.0)[0]
     assert shape.to_dataframe().index.tolist() == [1, 0]
+    arm = rc.Rig(rc.Chain(mass=[1.0, 2.0], length=1.0, order="support first"), support=rc.Support(radius=1.0))
+    assert rc.drag_shape(arm, rc.Drag(1.0, area=0.1), angular_speed=1.0).link.tolist() == [1, 0]
     wheel = rc.Flywheel(mass=1.0, radius_of_gyration=1.0, spin=[-G, 0.0, 0.0])
     for order, link in (("free end first", 0), ("support first", 2)):
         spun = rc.Rig(rc.Chain(mass=[1.0] * 3, length=1.0, order=order), flywheels=wheel)
