@@ -22,7 +22,7 @@ Closed forms
     FunicularPolygon, TransverseModes
 Files
     Scene, load_scene, Study, load_study, sweep, SceneError; of multibody engines to_mjcf, from_mjcf, to_urdf,
-    from_urdf
+    from_urdf, ModelWarning
 C++
     cmake_prefix: the folder of the C++ headers in this package
 
@@ -112,6 +112,7 @@ if _TYPE_CHECKING:
     from .closed_forms.strings import TransverseModes as TransverseModes
     from .closed_forms.strings import funicular_polygon as funicular_polygon
     from .closed_forms.strings import transverse_modes as transverse_modes
+    from .exchange.findings import ModelWarning as ModelWarning
     from .exchange.write import to_mjcf as to_mjcf
     from .exchange.read import from_mjcf as from_mjcf
     from .exchange.read import from_urdf as from_urdf
@@ -146,6 +147,7 @@ _LATER = dict.fromkeys(_CLOSED_FORMS, "closed_forms") | {
     "transverse_modes": "closed_forms.strings",
     "cmake_prefix": "cli",
     "load": "results.storage",
+    "ModelWarning": "exchange.findings",
     "to_mjcf": "exchange.write",
     "to_urdf": "exchange.write",
     "from_mjcf": "exchange.read",

@@ -1,0 +1,353 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The text of a model, put right before MuJoCo compiles it: its elements with their lines and names."""
+
+from __future__ import annotations
+
+import re
+from contextlib import suppress
+from pathlib import Path
+from xml.etree.ElementTree import Element, TreeBuilder
+from xml.parsers import expat
+from xml.sax.saxutils import quoteattr
+
+import numpy as np
+
+from ..systems.numbers import Floats
+from .findings import Findings
+
+OTHER = {"mujoco": "a model of MuJoCo: use from_mjcf", "robot": "a URDF file: use from_urdf"}
+_LOOKS = {"visual", "statistic", "keyframe", "sensor", "contact", "skin", "material", "texture", "light", "camera"}
+_NAMED = {"body", "joint", "freejoint"}  # elements that get a name if they have none, and children of the next
+_SECTIONS = {"actuator", "equality", "tendon"}
+_COPIED = {"composite", "replicate", "flexcomp", "default"}  # whose elements MuJoCo names, or that are none
+_TENSOR = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
+
+
+class Text:
+    """The elements of a file and of those that it includes.
+
+    Attributes
+    ----------
+    root : Element
+        The root, in which unnamed bodies, joints and so on have names of ours, and what MuJoCo refuses without need is
+        replaced.
+    inertia : dict
+        By the name of a body: moments of inertia in the frame of its ``inertial`` that MuJoCo would refuse, as 3 x 3 array.
+        The root has others in their place.
+    """
+
+    def __init__(self, text: str | bytes, path: str, findings: Findings, least: float) -> None:
+        self.findings, self.least = findings, least
+        self.folder = Path(path).parent if path else None
+        self.place: dict[Element, tuple[str, int]] = {}
+        self.by_name: dict[tuple[str, str], Element] = {}
+        self.unnamed: set[str] = set()
+        self._mark = "@"  # of the names of unnamed elements
+        self.inertia: dict[str, Floats] = {}
+        self.root = self._parsed(text, "")
+        self.is_urdf = self.root.tag == "robot"
+
+    def _parsed(self, text: str | bytes, file: str) -> Element:
+        """The tree of elements, each with its place. Names of namespaces go."""
+        parser, builder = expat.ParserCreate(), TreeBuilder()
+
+        def start(tag: str, given: dict[str, str]) -> None:
+            plain = {name: value for name, value in given.items() if ":" not in name and name != "xmlns"}
+            self.place[builder.start(tag, plain)] = file, parser.CurrentLineNumber
+
+        parser.StartElementHandler, parser.EndElementHandler = start, builder.end
+        parser.Parse(text, True)
+        return builder.close()
+
+    def put_right(self) -> None:
+        """Change what MuJoCo refuses without need, and note it."""
+        if self.is_urdf:
+            self._put_urdf_right()
+        else:
+            self._put_mjcf_right()
+
+    def name_of(self, kind: str, name: str) -> str:
+        """The words for a named or unnamed element in sentences."""
+        kind = "link" if kind == "body" and self.is_urdf else kind
+        if name not in self.unnamed:
+            return f"{kind} {name!r}" if name else f"a {kind} without a name"
+        file, line = self.place_of(kind, name)
+        return f"the {kind} in line {line}" + (f" of {file}" if file else "")
+
+    def place_of(self, kind: str, name: str) -> tuple[str, int]:
+        """File and line of an element; the file is empty for the main one, the line 0 where it is not known."""
+        kind = "link" if kind == "body" and self.is_urdf else kind
+        element = self.by_name.get((kind, name))
+        return ("", 0) if element is None else self.place[element]
+
+    def option(self, name: str) -> tuple[str, int]:
+        """File and line of the ``option`` with an attribute."""
+        found = [self.place[each] for each in self.root.iter("option") if each.get(name)]
+        return found[0] if found else ("", 0)
+
+    def written(self) -> tuple[str, list[Element]]:
+        """The text for MuJoCo, and the element in each of its lines."""
+        lines: list[str] = []
+        elements: list[Element] = []
+        stack: list[Element | str] = [self.root]
+        while stack:
+            here = stack.pop()
+            if isinstance(here, str):
+                lines[-1] += here
+                continue
+            given = "".join(f" {name}={quoteattr(value)}" for name, value in here.attrib.items())
+            lines.append(f"<{here.tag}{given}" + (">" if len(here) else "/>"))
+            elements.append(here)
+            if len(here):
+                stack += [f"</{here.tag}>", *reversed(here)]
+        return "\n".join(lines), elements
+
+    def message(self, error: str, elements: list[Element]) -> tuple[tuple[str, int], str]:
+        """A message of MuJoCo with the place and the names in the file."""
+        place = ("", 0)
+        if found := re.search(r",? line (\d+)(, column \d+)?", error):
+            if 0 < int(found[1]) <= len(elements):
+                place = self.place.get(elements[int(found[1]) - 1], place)
+            error = error.replace(found[0], "")
+        for (kind, name), element in self.by_name.items():
+            if name and re.search(rf"\bname '{re.escape(name)}'", error):
+                place = place if place[1] else self.place.get(element, place)
+                error = error if name not in self.unnamed else error.replace(f"name '{name}'", self.name_of(kind, name))
+        sentence = " ".join(error.removeprefix("XML Error: ").removeprefix("Error: ").split())
+        return place, f"MuJoCo refuses it: {sentence}"
+
+    # ---- MJCF
+
+    def _put_mjcf_right(self) -> None:
+        self._include(self.root, set())
+        for parent in list(self.root.iter()):
+            for child in list(parent):
+                if child.tag in _LOOKS:
+                    parent.remove(child)
+            parent.attrib.pop("material", None)
+        while any(each.get("name", "").startswith(self._mark) for each in self.root.iter()):
+            self._mark += "@"
+        self._name_all(self.root, "")
+        self._drop_lost_meshes()
+        for body in self.root.iter("body"):
+            name = body.get("name", "")
+            inertial = body.find("inertial")
+            if inertial is not None:
+                self._mend_inertial(inertial, name)
+            elif body.find("joint") is not None and body.find("geom") is None and not self._has_parts(body):
+                tiny = f"{self.least!r}"
+                body.insert(0, Element("inertial", pos="0 0 0", mass=tiny, diaginertia=" ".join([tiny] * 3)))
+
+    def _has_parts(self, body: Element) -> bool:
+        return any(child.tag in _COPIED or child.tag in ("frame", "attach") for child in body)
+
+    def _include(self, parent: Element, seen: set[str]) -> None:
+        """Put the elements of included files in their place; note files that are missing."""
+        for child in list(parent):
+            if child.tag != "include":
+                self._include(child, seen)
+                continue
+            at, name = list(parent).index(child), child.get("file", "")
+            parent.remove(child)
+            try:
+                if self.folder is None:
+                    raise FileNotFoundError
+                tree = self._parsed((self.folder / name).read_bytes(), name)
+            except (OSError, ValueError):
+                what = f"the included file {name!r} cannot be read"
+                self.findings.obstacle(self.place[child], what, "put it there", "visual")
+                continue
+            except expat.ExpatError as error:
+                self.findings.obstacle((name, error.lineno), f"no XML: {error}", "mend it", "visual")
+                continue
+            if name in seen:
+                continue
+            seen.add(name)
+            self._include(tree, seen)
+            for nth, each in enumerate(tree):
+                parent.insert(at + nth, each)
+
+    def _name_all(self, element: Element, section: str) -> None:
+        """Give a name to bodies, joints, actuators and the like that have none."""
+        for child in element:
+            if child.tag in _COPIED:
+                continue
+            if child.tag in _NAMED or section in _SECTIONS:
+                kind = section if section in _SECTIONS else child.tag.removeprefix("free")
+                if not child.get("name"):
+                    name = f"{self._mark}{len(self.unnamed) + 1}"
+                    child.set("name", name)
+                    self.unnamed.add(name)
+                self.by_name[kind, child.attrib["name"]] = child
+            self._name_all(child, child.tag if section == "" and element is self.root else "body")
+
+    def _drop_lost_meshes(self) -> None:
+        """Take away meshes whose file is missing, and the geoms that show them."""
+        settings = {name: value for each in self.root.iter("compiler") for name, value in each.attrib.items()}
+        base = self.folder or Path()
+        folder = base / settings.get("meshdir", settings.get("assetdir", ""))
+        lost: set[tuple[str, str]] = set()
+        for assets in self.root.iter("asset"):
+            for asset in list(assets):
+                file = asset.get("file")
+                if asset.tag not in ("mesh", "hfield") or file is None:
+                    continue
+                file = Path(file).name if settings.get("strippath") == "true" else file
+                if self.folder is None or not (folder / file).is_file():
+                    lost.add((asset.tag, asset.get("name", Path(file).stem)))
+                    assets.remove(asset)
+        if not lost:
+            return
+        for body in [each for each in self.root.iter() if each.tag in ("body", "worldbody", "frame")]:
+            has_inertia = body.find("inertial") is not None and settings.get("inertiafromgeom") != "true"
+            for geom in [each for each in body if each.tag == "geom"]:
+                kind, name = next((one for one in lost if geom.get(one[0]) == one[1]), ("", ""))
+                if not kind:
+                    continue
+                body.remove(geom)
+                sentence = f"a geom of {self.name_of('body', body.get('name', 'world'))} shows {kind} {name!r}, whose file is missing"
+                if has_inertia or body.tag == "worldbody" or geom.get("mass") == "0":
+                    self.findings.remark(self.place[geom], sentence)
+                else:
+                    self.findings.obstacle(
+                        self.place[geom],
+                        f"{sentence}, and gives the body its mass",
+                        "put the file there, or give the body an inertial",
+                        "visual",
+                    )
+
+    # ---- URDF
+
+    def _put_urdf_right(self) -> None:
+        links = {link.get("name", ""): link for link in self.root.findall("link")}
+        joints = self.root.findall("joint")
+        for name, link in links.items():
+            self.by_name["link", name] = link
+        for joint in joints:
+            self.by_name["joint", joint.get("name", "")] = joint
+            self._mend_joint(joint)
+        for element in self.root.iter():
+            if element.tag.startswith("xacro:"):
+                self.findings.obstacle(self.place[element], f"{element.tag} is not expanded", "write xacro FILE > model.urdf")
+                self.findings.stop()
+        below = {child: joint for joint in joints if (child := _link(joint, "child")) is not None}
+        for joint in joints:
+            if (parent := _link(joint, "parent")) == "world" and "world" not in links:
+                self.findings.remark(self.place[joint], "link 'world' is not declared: taken as the ground")
+                links["world"] = Element("link", name="world")
+                self.root.insert(0, links["world"])
+            for what, name in (("parent", parent), ("child", _link(joint, "child"))):
+                if name not in links:
+                    self.findings.obstacle(
+                        self.place[joint], f"joint {joint.get('name')!r}: its {what} link {name!r} is not declared", "declare it"
+                    )
+        meshes = [self._mend_link(name, link, below.get(name)) for name, link in links.items()]
+        if any(meshes):
+            names = ", ".join(name for name, count in zip(links, meshes, strict=True) if count)
+            self.findings.remark(("", 0), f"meshes are not read, and no motion depends on them: {names}")
+
+    def _mend_joint(self, joint: Element) -> None:
+        """Take away limits of equal ends, which are none; note joints that move with others."""
+        name = f"joint {joint.get('name')!r}"
+        limit = joint.find("limit")
+        if limit is not None and joint.get("type") in ("revolute", "prismatic"):
+            with suppress(ValueError):
+                low, high = float(limit.get("lower", "0")), float(limit.get("upper", "0"))
+                if low >= high:
+                    joint.remove(limit)
+                    if joint.get("type") == "revolute":
+                        joint.set("type", "continuous")
+                    else:
+                        limit.attrib.update(lower="-1e9", upper="1e9")
+                        joint.append(limit)
+                    self.findings.remark(self.place[joint], f"{name} has limits of equal ends, {low:g}: taken as without limits")
+        if joint.find("mimic") is not None:
+            self.findings.obstacle(self.place[joint], f"{name} moves with another joint (mimic)", "remove it", "equality")
+
+    def _mend_link(self, name: str, link: Element, joint: Element | None) -> int:
+        """Take away meshes, and return their number; give moving links without mass the least mass; mend inertia."""
+        meshes = 0
+        for shape in [each for each in link if each.tag in ("visual", "collision")]:
+            if shape.find("geometry/mesh") is not None:
+                link.remove(shape)
+                meshes += 1
+        inertial = link.find("inertial")
+        if inertial is not None and name == "world":
+            link.remove(inertial)
+        elif inertial is not None:
+            self._mend_inertial(inertial, name)
+        elif joint is None or joint.get("type") == "fixed":
+            pass
+        elif link.find("collision") is None:
+            self._add_inertial(link, self.least)
+        else:
+            self.findings.remark(
+                self.place[link], f"link {name!r} has no inertial: its mass is that of its collision shapes, of 1000 kg/m^3"
+            )
+        return meshes
+
+    def _add_inertial(self, link: Element, mass: float) -> None:
+        inertial = Element("inertial")
+        inertial.append(Element("mass", value=repr(mass)))
+        inertial.append(Element("inertia", _tensor(self.least)))
+        link.append(inertial)
+
+    # ---- both
+
+    def _mend_inertial(self, inertial: Element, name: str) -> None:
+        """Give MuJoCo moments of inertia that it takes, where it would refuse those of the file; keep these."""
+        with suppress(ValueError):  # no numbers: MuJoCo says so
+            mass, moments = _inertia_of(inertial, self.is_urdf)
+            if mass < 0 or not np.isfinite(moments).all() or not np.isfinite(mass):
+                return
+            values = np.sort(np.linalg.eigvalsh(moments))
+            if self.is_urdf and mass < self.least:
+                moments, values = np.zeros((3, 3)), np.zeros(3)
+                _set(inertial, "mass", value=repr(self.least))
+            if values[0] > 0 and values[2] <= (values[0] + values[1]) * (1 + 1e-12):
+                return
+            self.inertia[name] = moments
+            spare = max(float(np.abs(moments).max()), self.least)
+            if self.is_urdf:
+                _set(inertial, "inertia", **_tensor(spare))
+            else:
+                inertial.attrib.pop("fullinertia", None)
+                inertial.set("diaginertia", " ".join([repr(spare)] * 3))
+            if mass >= self.least:
+                point = "a point mass" if not moments.any() else "moments of inertia that no body has"
+                whose = self.name_of("body", name)
+                self.findings.remark(self.place[inertial], f"{whose} has {point}: MuJoCo refuses these, and they are read as they are")
+
+
+def _link(joint: Element, which: str) -> str | None:
+    found = joint.find(which)
+    return None if found is None else found.get("link")
+
+
+def _tensor(moment: float) -> dict[str, str]:
+    return {name: repr(moment) if name in _TENSOR[:3] else "0" for name in _TENSOR}
+
+
+def _set(parent: Element, tag: str, **given: str) -> None:
+    """Set the attributes of a child, which is made if there is none."""
+    child = parent.find(tag)
+    if child is None:
+        child = Element(tag)
+        parent.append(child)
+    child.attrib.update(given)
+
+
+def _inertia_of(inertial: Element, is_urdf: bool) -> tuple[float, Floats]:
+    """Mass and moments of inertia about the axes of the frame of an ``inertial``; a ValueError if they are no numbers."""
+    if is_urdf:
+        mass, six = inertial.find("mass"), inertial.find("inertia")
+        numbers = [0.0 if six is None else float(six.get(name, "0")) for name in _TENSOR]
+        heavy = 0.0 if mass is None else float(mass.get("value", "0"))
+    else:
+        heavy = float(inertial.get("mass", ""))
+        words = inertial.get("fullinertia", inertial.get("diaginertia", "0 0 0")).split()
+        numbers = [float(word) for word in words] + [0.0] * 3
+    a, b, c, d, e, f = numbers[:6]
+    return heavy, np.array([[a, d, e], [d, b, f], [e, f, c]])
+
+
