@@ -100,7 +100,7 @@ class Findings:
 
     def stop(self) -> NoReturn:
         """Raise an error with all obstacles."""
-        lines = list(dict.fromkeys(map(str, sorted(self.obstacles, key=lambda each: each.place))))
+        lines = list(dict.fromkeys(map(str, sorted(self.obstacles))))
         if (count := len(lines)) == 1:
             raise Blocked(f"{self.function}: {lines[0]}")
         if any(self.words):
@@ -115,9 +115,10 @@ class Findings:
 
 
 def listed_words(function: str, name: str, value: object) -> tuple[str, ...]:
-    """Words given as a tuple or list, or as one text with blanks."""
+    """Words given as a tuple or list, or as one text with commas or, if it has none, with blanks."""
     if isinstance(value, str):
-        return tuple(value.split())
+        words = value.split("," if "," in value else None)
+        return tuple(word.strip() for word in words if word.strip())
     if isinstance(value, tuple | list | set | frozenset) and all(isinstance(word, str) for word in value):
         return tuple(value)
     raise TypeError(f"{function}: {name} must be text or a tuple of texts, got {shown(value)}")

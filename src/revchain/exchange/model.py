@@ -66,9 +66,9 @@ class _Part(NamedTuple):
 class Model:
     """A model in its pose at rest with relaxed springs. Masses and moments of inertia up to `least` count as 0."""
 
-    def __init__(self, mujoco: Any, model: Any, text: Text, findings: Findings, least: float, links: tuple[str, ...]) -> None:
+    def __init__(self, mujoco: Any, model: Any, text: Text, findings: Findings, least: float) -> None:
         self.mujoco, self.model, self.text, self.findings, self.least = mujoco, model, text, findings, least
-        self.wanted = links
+        self.wanted: list[int] = []  # the bodies that the caller names
         kinds = mujoco.mjtJoint
         self.hinge, self.slide, self.ball = int(kinds.mjJNT_HINGE), int(kinds.mjJNT_SLIDE), int(kinds.mjJNT_BALL)
         self.turn: int | None = None  # the joint of the turntable
@@ -87,6 +87,15 @@ class Model:
             self.children[above].insert(0, body)
             self.moves[above] |= self.moves[body]
         self.up = -model.opt.gravity / self.gravity if self.gravity else np.array([0.0, 0.0, 1.0])
+
+    def choose(self, links: tuple[str, ...]) -> None:
+        """Take the chain of these bodies; a ValueError lists all bodies if one is unknown."""
+        known = {self._plain("body", b): b for b in range(1, self.model.nbody)}
+        for name in links:
+            if name not in known:
+                names = ", ".join(repr(each) for each in known if each not in self.text.unnamed)
+                raise ValueError(f"{self.findings.function}: links must be names of bodies, {names}; got {name!r}")
+        self.wanted = [known[name] for name in links]
 
     def system(self) -> Chain | Rig:
         """The chain, and the support if it is not a firm point on the axis; one error with all obstacles."""
@@ -115,10 +124,9 @@ class Model:
                     "joint", slides[0], "is the only slide, but the links do not move in its plane alone",
                     "give the carriage a second slide across it",
                 )  # fmt: skip
-        self.findings.check()
         if self.turn is not None:
-            arm = self.at.xanchor[parts[0].joints[0]] - self.at.xanchor[self.turn]
-            given["radius"] = float(np.linalg.norm(arm - (arm @ self.up) * self.up))
+            given["radius"] = self._arm(self.turn, parts[0].joints, links[0].way, any(link.axial for link in links))
+        self.findings.check()
         links.reverse()
         axial = np.array([link.axial for link in links])
         chain, support = _chain(links, self._numeric(RATIO), self.text.unnamed), Support(**given)
@@ -191,11 +199,11 @@ class Model:
         model, note = self.model, self.findings.obstacle
         if self._acts("constraint", "equality"):
             for k in np.flatnonzero(getattr(model, "eq_active0", np.ones(model.neq))):
-                self._obstacle("equality", int(k), "is a constraint, which a chain does not have", "remove it", "equality")
+                self._obstacle("equality", int(k), "is a constraint, which a chain does not have", "take it away", "equality")
         for k in range(model.ntendon):
             fields = ("stiffness", "damping", "frictionloss", "limited", "armature", "actfrclimited")
             if any(np.any(getattr(model, f"tendon_{field}", 0.0)[k]) for field in fields if hasattr(model, f"tendon_{field}")):
-                self._obstacle("tendon", k, "pulls at the links, which a chain does not have", "remove it", "tendon")
+                self._obstacle("tendon", k, "pulls at the links, which a chain does not have", "take it away", "tendon")
         if model.nflex:
             note(("", 0), "the model has flexes, which a chain does not have", "remove them")
         if model.nplugin:
@@ -218,10 +226,10 @@ class Model:
         for k in range(model.nu):
             low, high = model.actuator_ctrlrange[k]
             if any(np.any(getattr(model, field)[k]) for field in fields if hasattr(model, field)):
-                self._obstacle("actuator", k, "acts without a signal, and a chain has no motors", "remove it", "actuator")
+                self._obstacle("actuator", k, "acts without a signal, and a chain has no motors", "take it away", "actuator")
             elif model.actuator_ctrllimited[k] and not low <= 0 <= high:
                 what = "acts without a signal, as its ctrlrange does not contain 0"
-                self._obstacle("actuator", k, what, "remove it", "actuator")
+                self._obstacle("actuator", k, what, "take it away", "actuator")
             else:
                 what = f"{self._name('actuator', k)} exerts no force without a signal: left out"
                 self.findings.remark(self._place("actuator", k), what)
@@ -254,7 +262,7 @@ class Model:
             return
         unit, scale = ("m", 1.0) if model.jnt_type[joint] == self.slide else ("degrees", math.degrees(1))
         between = f"{low * scale:g} to {high * scale:g} {unit}"
-        self._obstacle("joint", joint, f"has a range, {between}", "remove it", "range")
+        self._obstacle("joint", joint, f"has a range, {between}", "take it away", "range")
 
     def _damping(self, joint: int) -> float:
         """The damping of a joint, or 0 where dashpots are disabled."""
@@ -270,14 +278,13 @@ class Model:
 
     def _path(self) -> list[int] | None:
         """The bodies with joints, from the support down, along the longest branch if there are more; None without joints."""
-        wanted = self._wanted()
-        bodies: list[int] = []
+        wanted, bodies = self.wanted, list[int]()
         here, rest = 0, set(wanted)
         while True:
             below = [b for b in self.children[here] if self.moves[b]]
             chosen = [b for b in below if not wanted or rest & self._below(b)]
             if len(chosen) > 1:
-                chosen = [self._fork(here, chosen)]
+                chosen = [self._fork(bodies, here, chosen)]
             elif wanted:
                 self._leave_out([b for b in below if b not in chosen])
             if not chosen:
@@ -288,32 +295,26 @@ class Model:
                 bodies.append(here)
         if not bodies:
             instead = "add a hinge above each link"
-            self.findings.obstacle(self.text.place[self.text.root], "the model has no joints", instead)
+            self.findings.obstacle(("", 0), "the model has no joints", instead)
             return None
         return bodies
-
-    def _wanted(self) -> list[int]:
-        """The bodies that the caller names."""
-        known = {self._plain("body", b): b for b in range(1, self.model.nbody)}
-        for name in self.wanted:
-            if name not in known:
-                names = ", ".join(repr(each) for each in known if each not in self.text.unnamed)
-                raise ValueError(f"{self.findings.function}: links must be names of bodies, {names}, got {name!r}")
-        return [known[name] for name in self.wanted]
 
     def _below(self, body: int) -> set[int]:
         """A body and all that hangs from it."""
         return {body}.union(*(self._below(b) for b in self.children[body]))
 
-    def _fork(self, here: int, below: list[int]) -> int:
+    def _fork(self, above: list[int], here: int, below: list[int]) -> int:
         """Note that more than one body hangs from another, and which names to give; return the body to follow."""
         followed = max(below, key=lambda b: len(self._longest(b)))
-        other = next(b for b in below if b != followed)
-        names = [self._plain("body", b) for b in self._longest(followed)]
+        others = [b for b in below if b != followed]
+        names = [self._plain("body", b) for b in (*above, *self._longest(followed))]
         named = " ".join(name for name in names if name not in self.text.unnamed)
         instead = f'name the links of one chain, such as links="{named}"' if named else "name the bodies, and give links"
-        what = f"and {self._name('body', followed)} both hang from {self._name('body', here)}; only a serial chain can be read"
-        self._obstacle("body", other, what, instead)
+        *first, last = [self._name("body", b) for b in sorted(below)]
+        these = f"{', '.join(first)} and {last}"
+        number = "both" if len(others) == 1 else "all"
+        what = f"{these} {number} hang from {self._name('body', here)}; only a serial chain can be read"
+        self.findings.obstacle(self._place("body", others[0]), what, instead)
         return followed
 
     def _longest(self, body: int) -> list[int]:
@@ -339,7 +340,8 @@ class Model:
         name = self._name("body", body)
         for j in joints:
             if np.any(self.model.jnt_pos[j] != self.model.jnt_pos[joints[0]]):
-                self._obstacle("body", body, "has joints at different places, and a link has one upper pin", "set pos of all to one")
+                what = f"the joints of {name} are at different places; a link has one upper pin"
+                self.findings.obstacle(self._place("body", body), what, "give all the same pos")
         heavy = [b for b in (body, *fixed) if self.model.body_mass[b] > self.least]
         if len(heavy) < 2 and (not heavy or heavy[0] == body):
             inertia, ball = self._inertia(body)
@@ -400,6 +402,24 @@ class Model:
         mass += float(rotors[0])
         return {"stiffness": stiffness or (None if mass else 0.0), "damping": damping, "mass": mass}
 
+    def _arm(self, turn: int, joints: list[int], way: str, is_driven: bool) -> float:
+        """The radius of the turntable, which keeps its speed in a `Rig` whatever its moment of inertia is."""
+        apart = self.at.xanchor[joints[0]] - self.at.xanchor[turn]
+        arm = apart - (apart @ self.up) * self.up
+        radius = float(np.linalg.norm(arm))
+        if way == "one hinge" and radius and abs(arm @ self.at.xaxis[joints[0]]) > _ROUNDED * radius:
+            what = "swings its link across the arm of the turntable, and in a Rig links move in the plane of the arm"
+            self._obstacle("joint", joints[0], what, "turn its axis by 90 degrees")
+        whole = float(self.model.body_subtreemass[0]) * (radius**2 + float(np.ptp(self.at.xipos, axis=0).max()) ** 2)
+        own = float(self.model.body_inertia[self.model.jnt_bodyid[turn]].max())
+        if radius and own < 1e3 * whole:
+            what = f"{self._name('joint', turn)} turns about the vertical: a support that keeps its speed, whatever its moment of inertia"
+            self.findings.remark(self._place("joint", turn), what)
+        if is_driven:
+            what = "links turn with the support about their own axes: speeds are those of whirl, not of swing in a plane"
+            self.findings.remark(self._place("joint", turn), what)
+        return radius
+
     def _held(self, part: _Part) -> tuple[float, float]:
         """Stiffness and damping of a pin or carriage, which are those of all its joints."""
         found = []
@@ -443,7 +463,7 @@ class Model:
                 joints = []
             elif part.mass > self.least:
                 self._obstacle("body", part.body, "has mass but no length: the next joint is at its own", "move that joint")
-        ways = {link.way for link in links}
+        ways = {link.way for link in links} - {"none"}
         if "one hinge" in ways and not is_plane:
             what = "some links have one hinge and some have more"
             if len(ways) == 1:
@@ -464,15 +484,13 @@ class Model:
         if tilt > 1 - 1e-6:
             what = "turns about the vertical: gravity does not swing its link back"
             self._obstacle("joint", every[0], what, "a chain hangs from level hinges")
-            self.findings.stop()
+            return True
         if tilt > _NEAR and self.turn is None:
             degrees = math.degrees(math.asin(tilt))
             self.gravity *= math.sqrt(1 - tilt**2)
             what = f"the hinges are inclined by {degrees:.3g} degrees: gravity in the plane of motion is {self.gravity:.9g} m/s^2"
             self.findings.remark(self._place("joint", every[0]), what)
-        elif tilt > _NEAR:
-            return False
-        return True
+        return tilt < _NEAR or self.turn is None
 
     def _look_at_rotors(self, parts: list[_Part], is_plane: bool) -> None:
         """Note inertia of rotors below the uppermost hinge of a plane chain."""
@@ -637,6 +655,8 @@ class Model:
     def _way(self, part: _Part, joints: list[int], axis: Floats, is_plane: bool) -> tuple[str, Floats | None]:
         """How a link with this axis in space turns about its pin, and the direction of its hinge if it has only one."""
         hinges = [j for j in joints if self.model.jnt_type[j] == self.hinge]
+        if any(self.model.jnt_type[j] not in (self.hinge, self.ball) for j in joints):
+            return "none", None
         if is_plane:
             return "one hinge", self.at.xaxis[hinges[0]]
         if len(hinges) < len(joints) or len(hinges) > 2:
@@ -645,8 +665,8 @@ class Model:
         if len(hinges) == 1:
             return "one hinge", axes[0]
         elif np.abs(axes @ axis).max() > _NEAR or np.linalg.norm(np.cross(*axes)) < _NEAR:
-            what = "has hinges that are not across the link, at its upper pin"
-            self._obstacle("body", part.body, what, "change their axes")
+            what = f"the hinges of {part.name} are not across the link, at its upper pin"
+            self.findings.obstacle(self._place("body", part.body), what, "change their axes")
         return "two hinges", None
 
     def _moments(self, part: _Part, axis: Floats, hinge: Floats | None) -> tuple[float, float]:

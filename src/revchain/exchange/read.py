@@ -70,7 +70,7 @@ def from_mjcf(
     >>> rc.from_mjcf(rc.to_mjcf(chain)) == chain
     True
     """
-    return _warned(read_model("revchain.from_mjcf", source, "mujoco", ignore, links), "mujoco")
+    return _warned(read_model("revchain.from_mjcf", source, "mujoco", ignore, links))
 
 
 def from_urdf(
@@ -109,7 +109,7 @@ def from_urdf(
     >>> rc.from_urdf(rc.to_urdf(chain)) == chain
     True
     """
-    return _warned(read_model("revchain.from_urdf", source, "robot", ignore, links), "robot")
+    return _warned(read_model("revchain.from_urdf", source, "robot", ignore, links))
 
 
 class Imported(NamedTuple):
@@ -120,6 +120,11 @@ class Imported(NamedTuple):
     title: str
     left_out: tuple[Sentence, ...]
     remarks: tuple[Sentence, ...]
+    has_gravity: bool
+
+    def said(self) -> list[tuple[str, tuple[Sentence, ...]]]:
+        """What was left out, and the remarks, each with a title."""
+        return [(title, each) for title, each in (("left out:", self.left_out), ("remarks:", self.remarks)) if each]
 
 
 def read_model(function: str, source: Any, root: str, ignore: Any, links: Any) -> Imported:
@@ -134,25 +139,26 @@ def read_model(function: str, source: Any, root: str, ignore: Any, links: Any) -
     try:
         text = Text(content, name, findings, LEAST)
     except (expat.ExpatError, ValueError, LookupError) as error:
-        raise ValueError(f"{function}: {error}") from None
+        raise Blocked(f"{function}: {error}") from None
     found = text.root.tag
     if found not in ([root] if root else OTHER):
         other = OTHER.get(found, "neither MJCF nor URDF") if root else "neither MJCF nor URDF"
         wanted = f"<{root}>" if root else "<mujoco> or <robot>"
-        raise ValueError(f"{function}: source must begin with {wanted}, got <{found}>, {other}")
+        raise Blocked(f"{function}: source must begin with {wanted}, got <{found}>, {other}")
     text.least = _LEAST[found]
     text.put_right()
     compiled = _compiled(mujoco, text, findings)
+    model = Model(mujoco, compiled, text, findings, text.least)
+    model.choose(chosen)
     try:
-        model = Model(mujoco, compiled, text, findings, text.least, chosen)
         system = model.system()
     except Blocked:
         raise
     except ValueError as error:  # of a chain that it would make
-        raise ValueError(f"{function}: {str(error).partition(': ')[2]}") from None
-    remarks = tuple(sorted(findings.remarks, key=lambda each: each.place))
+        raise Blocked(f"{function}: {str(error).partition(': ')[2]}") from None
+    left_out, remarks = (tuple(sorted(each)) for each in (findings.left_out, findings.remarks))
     title = text.root.get("model" if found == "mujoco" else "name", "")
-    return Imported(system, model.gravity, title, tuple(sorted(findings.left_out, key=lambda each: each.place)), remarks)
+    return Imported(system, model.gravity, title, left_out, remarks, found == "mujoco")
 
 
 def _compiled(mujoco: Any, text: Text, findings: Findings) -> Any:
@@ -165,20 +171,18 @@ def _compiled(mujoco: Any, text: Text, findings: Findings) -> Any:
             spec.compiler.fusestatic = False
         return spec.compile()
     except ValueError as error:
-        place, sentence = text.message(str(error), elements)
+        place, sentence = text.message(str(error), elements, mujoco.__version__)
         findings.obstacle(place, sentence, "correct the file")
         findings.stop()
 
 
-def _warned(model: Imported, root: str) -> Chain | Rig:
+def _warned(model: Imported) -> Chain | Rig:
     """The system, with a warning if something was left out or changed, or if gravity is not the standard one."""
-    is_other = root == "mujoco" and model.gravity != STANDARD_GRAVITY
-    if not (model.left_out or model.remarks or is_other):
-        return model.system
-    whose = "gravity of the model" if root == "mujoco" else "URDF has no gravity; that of MuJoCo"
-    head = f"{whose} is {model.gravity:.9g} m/s^2: give gravity={model.gravity!r} in questions"
-    parts = [("left out:", model.left_out), ("remarks:", model.remarks)]
-    lines = [head, *(line for title, each in parts if each for line in (title, *(f"  {sentence}" for sentence in each)))]
-    left_out, remarks = tuple(map(str, model.left_out)), tuple(map(str, model.remarks))
-    warnings.warn(ModelWarning("\n".join(lines), model.gravity, left_out, remarks), stacklevel=3)
+    said = model.said()
+    if said or (model.has_gravity and model.gravity != STANDARD_GRAVITY):
+        whose = "gravity of the model" if model.has_gravity else "URDF has no gravity; that of MuJoCo"
+        lines = [f"{whose} is {model.gravity:.9g} m/s^2: give gravity={model.gravity!r} in questions"]
+        lines += [line for title, each in said for line in (title, *(f"  {sentence}" for sentence in each))]
+        left_out, remarks = tuple(map(str, model.left_out)), tuple(map(str, model.remarks))
+        warnings.warn(ModelWarning("\n".join(lines), model.gravity, left_out, remarks), stacklevel=3)
     return model.system

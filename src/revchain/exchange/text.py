@@ -102,7 +102,7 @@ class Text:
                 stack += [f"</{here.tag}>", *reversed(here)]
         return "\n".join(lines), elements
 
-    def message(self, error: str, elements: list[Element]) -> tuple[tuple[str, int], str]:
+    def message(self, error: str, elements: list[Element], version: str) -> tuple[tuple[str, int], str]:
         """A message of MuJoCo with the place and the names in the file."""
         place = ("", 0)
         if found := re.search(r",? line (\d+)(, column \d+)?", error):
@@ -114,7 +114,7 @@ class Text:
                 place = place if place[1] else self.place.get(element, place)
                 error = error if name not in self.unnamed else error.replace(f"name '{name}'", self.name_of(kind, name))
         sentence = " ".join(error.removeprefix("XML Error: ").removeprefix("Error: ").split())
-        return place, f"MuJoCo refuses it: {sentence}"
+        return place, f"MuJoCo {version} refuses it: {sentence}"
 
     # ---- MJCF
 
@@ -179,7 +179,8 @@ class Text:
                     child.set("name", name)
                     self.unnamed.add(name)
                 self.by_name[kind, child.attrib["name"]] = child
-            self._name_all(child, child.tag if section == "" and element is self.root else "body")
+            if section not in _SECTIONS:
+                self._name_all(child, child.tag if element is self.root else "body")
 
     def _drop_lost_meshes(self) -> None:
         """Take away meshes whose file is missing, and the geoms that show them."""
@@ -261,6 +262,9 @@ class Text:
                         limit.attrib.update(lower="-1e9", upper="1e9")
                         joint.append(limit)
                     self.findings.remark(self.place[joint], f"{name} has limits of equal ends, {low:g}: taken as without limits")
+        if joint.get("type") == "ball":
+            joint.set("type", "spherical")
+            self.findings.remark(self.place[joint], f"{name} has type ball, which URDF does not have: read as a ball joint")
         if joint.find("mimic") is not None:
             self.findings.obstacle(self.place[joint], f"{name} moves with another joint (mimic)", "remove it", "equality")
 
