@@ -70,7 +70,7 @@ def from_mjcf(
     >>> rc.from_mjcf(rc.to_mjcf(chain)) == chain
     True
     """
-    return _warned(read_model("revchain.from_mjcf", source, "mujoco", ignore, links))
+    return _read("revchain.from_mjcf", source, "mujoco", ignore, links)
 
 
 def from_urdf(
@@ -109,7 +109,7 @@ def from_urdf(
     >>> rc.from_urdf(rc.to_urdf(chain)) == chain
     True
     """
-    return _warned(read_model("revchain.from_urdf", source, "robot", ignore, links))
+    return _read("revchain.from_urdf", source, "robot", ignore, links)
 
 
 class Imported(NamedTuple):
@@ -176,8 +176,12 @@ def _compiled(mujoco: Any, text: Text, findings: Findings) -> Any:
         findings.stop()
 
 
-def _warned(model: Imported) -> Chain | Rig:
+def _read(function: str, source: Any, root: str, ignore: Any, links: Any) -> Chain | Rig:
     """The system, with a warning if something was left out or changed, or if gravity is not the standard one."""
+    try:
+        model = read_model(function, source, root, ignore, links)
+    except Blocked as error:
+        raise ValueError(str(error)) from None
     said = model.said()
     if said or (model.has_gravity and model.gravity != STANDARD_GRAVITY):
         whose = "gravity of the model" if model.has_gravity else "URDF has no gravity; that of MuJoCo"

@@ -16,7 +16,7 @@ from ..systems.numbers import Floats
 from .findings import Findings
 
 OTHER = {"mujoco": "a model of MuJoCo: use from_mjcf", "robot": "a URDF file: use from_urdf"}
-_LOOKS = {"visual", "statistic", "keyframe", "sensor", "contact", "skin", "material", "texture", "light", "camera"}
+_LOOKS = {"visual", "statistic", "keyframe", "sensor", "contact", "skin", "material", "texture", "light", "camera", "tuple"}
 _NAMED = {"body", "joint", "freejoint"}  # elements that get a name if they have none, and children of the next
 _SECTIONS = {"actuator", "equality", "tendon"}
 _COPIED = {"composite", "replicate", "flexcomp", "default"}  # whose elements MuJoCo names, or that are none
@@ -220,6 +220,8 @@ class Text:
     # ---- URDF
 
     def _put_urdf_right(self) -> None:
+        for element in self.root:
+            element.tag = "joint" if element.tag == "drake:joint" else element.tag
         links = {link.get("name", ""): link for link in self.root.findall("link")}
         joints = self.root.findall("joint")
         for name, link in links.items():
@@ -242,6 +244,8 @@ class Text:
                     self.findings.obstacle(
                         self.place[joint], f"joint {joint.get('name')!r}: its {what} link {name!r} is not declared", "declare it"
                     )
+        for name in [name for name in links if name not in below and name != "world"]:
+            self.findings.remark(self.place[links[name]], f"link {name!r} hangs from no joint: taken as the ground")
         meshes = [self._mend_link(name, link, below.get(name)) for name, link in links.items()]
         if any(meshes):
             names = ", ".join(name for name, count in zip(links, meshes, strict=True) if count)
