@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, NoReturn
 
 import numpy as np
 
@@ -172,11 +172,11 @@ class Model:
                 self._wild(f"{field} of all joints", "", values)
         if not (np.abs(model.opt.gravity) <= _MOST).all():
             self._wild("gravity", "", model.opt.gravity)
-        self.findings.check()
 
-    def _wild(self, name: str, field: str, value: Any, kind: str = "", number: int = 0) -> None:
+    def _wild(self, name: str, field: str, value: Any, kind: str = "", number: int = 0) -> NoReturn:
         place = self._place(kind, number) if kind else ("", 0)
         self.findings.obstacle(place, f"{name}{field} must be finite and at most {_MOST:g}, got {value}", "change it")
+        self.findings.stop()
 
     def _obstacle(self, kind: str, number: int, what: str, instead: str, word: str = "") -> None:
         """Note an obstacle of a body, joint or other element."""
@@ -539,7 +539,8 @@ class Model:
             if len(found) == 1:
                 along = self._seen(part, found[0] - pin, is_plane)
                 length = float(np.linalg.norm(along))
-                if length > _NEAR * max(reach, 1e-300) and (part.mass <= self.least or self._is_on(out, along)):
+                hangs = along @ out >= 0 or self._stiffness()[part.joints].any()  # springs hold a link that stands
+                if length > _NEAR * reach and (part.mass <= self.least or (hangs and self._is_on(out, along))):
                     return np.asarray(found[0])
                 if reach and length and along @ out > 0:
                     return np.asarray(pin + (along @ out) / reach**2 * out)

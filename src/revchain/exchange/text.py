@@ -306,6 +306,9 @@ class Text:
         """Give MuJoCo moments of inertia that it takes, where it would refuse those of the file; keep these."""
         with suppress(ValueError):  # no numbers: MuJoCo says so
             mass, moments = _inertia_of(inertial, self.is_urdf)
+            if mass < 0:
+                what = f"{self.name_of('body', name)} has a negative mass, {mass:g}"
+                self.findings.obstacle(self.place[inertial], what, "give 0 or more")
             if mass < 0 or not np.isfinite(moments).all() or not np.isfinite(mass):
                 return
             values = np.sort(np.linalg.eigvalsh(moments))
