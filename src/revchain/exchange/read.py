@@ -148,7 +148,7 @@ def read_model(function: str, source: Any, root: str, ignore: Any, links: Any) -
     text.least = _LEAST[found]
     text.put_right()
     compiled = _compiled(mujoco, text, findings)
-    model = Model(mujoco, compiled, text, findings, text.least)
+    model = Model(mujoco, compiled, text, findings)
     model.choose(chosen)
     try:
         system = model.system()

@@ -17,6 +17,11 @@ from .findings import Findings
 
 OTHER = {"mujoco": "a model of MuJoCo: use from_mjcf", "robot": "a URDF file: use from_urdf"}
 _LOOKS = {"visual", "statistic", "keyframe", "sensor", "contact", "skin", "material", "texture", "light", "camera", "tuple"}
+_LOOKS |= {"size"}  # of memory
+_READ = {  # attributes that are read; others, of the solver, are not in all versions of MuJoCo
+    "option": {"gravity", "density", "viscosity", "wind"},
+    "flag": {"constraint", "equality", "frictionloss", "limit", "passive", "spring", "damper", "gravity", "actuation"},
+}
 _NAMED = {"body", "joint", "freejoint"}  # elements that get a name if they have none, and children of the next
 _SECTIONS = {"actuator", "equality", "tendon"}
 _COPIED = {"composite", "replicate", "flexcomp", "default"}  # whose elements MuJoCo names, or that are none
@@ -125,6 +130,8 @@ class Text:
                 if child.tag in _LOOKS:
                     parent.remove(child)
             parent.attrib.pop("material", None)
+            for name in set(parent.attrib) - _READ.get(parent.tag, {*parent.attrib}):
+                del parent.attrib[name]
         while any(each.get("name", "").startswith(self._mark) for each in self.root.iter()):
             self._mark += "@"
         self._name_all(self.root, "")
@@ -231,7 +238,8 @@ class Text:
             self._mend_joint(joint)
         for element in self.root.iter():
             if element.tag.startswith("xacro:"):
-                self.findings.obstacle(self.place[element], f"{element.tag} is not expanded", "write xacro FILE > model.urdf")
+                what = f"{element.tag} is not expanded"
+                self.findings.obstacle(self.place[element], what, "write xacro FILE > model.urdf in a shell")
                 self.findings.stop()
         below = {child: joint for joint in joints if (child := _link(joint, "child")) is not None}
         for joint in joints:
@@ -239,17 +247,16 @@ class Text:
                 self.findings.remark(self.place[joint], "link 'world' is not declared: taken as the ground")
                 links["world"] = Element("link", name="world")
                 self.root.insert(0, links["world"])
-            for what, name in (("parent", parent), ("child", _link(joint, "child"))):
-                if name not in links:
-                    self.findings.obstacle(
-                        self.place[joint], f"joint {joint.get('name')!r}: its {what} link {name!r} is not declared", "declare it"
-                    )
+            for which, end in (("parent", parent), ("child", _link(joint, "child"))):
+                if end not in links:
+                    what = f"joint {joint.get('name')!r}: its {which} link {end!r} is not declared"
+                    self.findings.obstacle(self.place[joint], what, "declare it")
         for name in [name for name in links if name not in below and name != "world"]:
             self.findings.remark(self.place[links[name]], f"link {name!r} hangs from no joint: taken as the ground")
         meshes = [self._mend_link(name, link, below.get(name)) for name, link in links.items()]
         if any(meshes):
             names = ", ".join(name for name, count in zip(links, meshes, strict=True) if count)
-            self.findings.remark(("", 0), f"meshes are not read, and no motion depends on them: {names}")
+            self.findings.remark(("", 0), f"meshes are not read, as masses are in the file: {names}")
 
     def _mend_joint(self, joint: Element) -> None:
         """Take away limits of equal ends, which are none; note joints that move with others."""
@@ -288,6 +295,8 @@ class Text:
             pass
         elif link.find("collision") is None:
             self._add_inertial(link, self.least)
+            if meshes:
+                self.findings.remark(self.place[link], f"link {name!r} has no inertial: it is without mass")
         else:
             self.findings.remark(
                 self.place[link], f"link {name!r} has no inertial: its mass is that of its collision shapes, of 1000 kg/m^3"
