@@ -147,7 +147,6 @@ _LATER = dict.fromkeys(_CLOSED_FORMS, "closed_forms") | {
     "transverse_modes": "closed_forms.strings",
     "cmake_prefix": "cli",
     "load": "results.storage",
-    "ModelWarning": "exchange.findings",
     "to_mjcf": "exchange.write",
     "to_urdf": "exchange.write",
     "from_mjcf": "exchange.read",
@@ -156,6 +155,7 @@ _LATER = dict.fromkeys(_CLOSED_FORMS, "closed_forms") | {
 _RECEIVED = {  # classes of results that no program makes; `dir` leaves them out
     "Certificate": "results.modes",
     "GovernorEquilibria": "closed_forms.governor",
+    "ModelWarning": "exchange.findings",
     "OtherModes": "results.modes",
     "Place": "results.shapes",
     "StabilityWindow": "results.branches",

@@ -629,7 +629,7 @@ def test_the_command(run, here):
 
 def test_the_command_reads_urdf_and_trees(run, here):
     code, out, _ = run("import", "robot.urdf", "--ignore", "friction", "--out", "a.toml")
-    assert code == 0 and "gravity 9.81 m/s^2, as URDF has none" in out and rc.load_scene("a.toml").title == "two"
+    assert code == 0 and "gravity 9.81 m/s^2, that of MuJoCo, as URDF has none" in out and rc.load_scene("a.toml").title == "two"
     code, _, err = run("import", "tree.xml")
     assert code == 3 and 'such as --links "root right low"' in err
     code, out, _ = run("import", "tree.xml", "--links", "right")
@@ -661,3 +661,8 @@ def test_any_model_for_the_reader():
     assert read_model("f", FULL, "", "all", None).title == "full"
     with pytest.raises(ValueError, match="^f: source must begin with <mujoco> or <robot>, got <a>"):
         read_model("f", "<a/>", "", "", None)
+
+
+def test_the_words_are_in_the_documentation():
+    for word, what in WORDS.items():
+        assert re.search(rf"^    {word} +{re.escape(what)}$", rc.from_mjcf.__doc__, re.MULTILINE)

@@ -24,13 +24,13 @@ def import_model(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="Model of MuJoCo (MJCF) or robot description (URDF).")],
     out: Annotated[
         str | None,
-        typer.Option("--out", "-o", metavar="SCENE|-", help="Scene to write; - is stdout; FILE.toml in this folder if left out."),
+        typer.Option("--out", "-o", metavar="SCENE|-", help="Scene to write; FILE.toml in this folder if left out; - is stdout."),
     ] = None,
     ignore: Annotated[
-        str, typer.Option(metavar='"WORD ..."|all', help="What to leave out where it stands in the way; the message says which words help.")
+        str, typer.Option(metavar='"WORD ..."|all', help="What to leave out; the list of obstacles names the words that help.")
     ] = "",
     links: Annotated[
-        str | None, typer.Option(metavar='"BODY ..."', help="Bodies of the chain to take from a tree, with blanks or commas between.")
+        str | None, typer.Option(metavar='"BODY ..."', help="The bodies that are the links, if the model branches.")
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite an existing scene.")] = False,
 ) -> None:
@@ -45,8 +45,9 @@ def import_model(
     except ValueError as error:
         message = str(error).removeprefix(f"{file}: ")
         raise Stop(f"--{_as_options(message)}", ExitCode.WRONG_USAGE) from None
+    gravity = f"gravity {model.gravity:.9g} m/s^2" + ("" if model.has_gravity else ", that of MuJoCo, as URDF has none")
     said = [
-        f"{model.system.describe()}; gravity {model.gravity:.9g} m/s^2" + ("" if model.has_gravity else ", as URDF has none"),
+        f"{model.system.describe()}; {gravity}",
         *(line for title, each in model.said() for line in (title, *(f"  {sentence}" for sentence in each))),
     ]
     text = scene_text(model.system, model.gravity, model.title or file.stem, [f"Read from {file.name}.", *said])

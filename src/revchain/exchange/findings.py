@@ -42,6 +42,7 @@ class ModelWarning(UserWarning):
     >>> import revchain as rc
     >>> text = rc.to_mjcf(rc.Chain(mass=1.0, length=2.0), gravity=9.81)
     >>> with warnings.catch_warnings(record=True) as said:
+    ...     warnings.simplefilter("always")
     ...     chain = rc.from_mjcf(text)
     >>> rc.modes(chain, gravity=said[0].message.gravity).angular_speed.round(5)
     array([2.21472])
@@ -106,7 +107,8 @@ class Findings:
         if any(self.words):
             words = " ".join(sorted({*self.words, *self.ignore} - {""}))
             lines.append(f'ignore="{words}" ' + ("reads the file without them" if all(self.words) else "leaves the others"))
-        raise Blocked(f"{self.function}: the model is no hanging chain, for {count} reasons:" + "".join(f"\n  {x}" for x in lines))
+        head = f"{self.function}: the model is no hanging chain, for {count} reasons:"
+        raise Blocked("\n  ".join([head, *lines]))
 
     def check(self) -> None:
         """Raise an error with all obstacles if there are any."""

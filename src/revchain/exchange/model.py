@@ -290,7 +290,7 @@ class Model(Compiled):
         return tilt < _NEAR or self.turn is None or tilt > 1 - 1e-6
 
     def _without_wheel(self, parts: list[_Part]) -> list[_Part]:
-        """The bodies of a plane chain, a last one that turns about its centre of gravity as a point mass of the one above."""
+        """The bodies of a plane chain; a last one that turns about its centre of gravity becomes a point mass."""
         *rest, last = parts
         reach = float(np.linalg.norm(self._seen(last, last.centre - last.pin, True)))
         if not rest or last.mass <= self.least or reach > _NEAR * np.linalg.norm(self._in_parent(rest[-1], last)):
@@ -301,9 +301,10 @@ class Model(Compiled):
         what = "turns freely about its centre of gravity: read as a point mass at its pin, as its turning is no mode"
         self._remark("body", last.body, what)
         one = rest[-1]
-        members = [(one.mass, one.centre, one.inertia - one.ball * np.eye(3)) for _ in [0] if one.mass > self.least]
-        joined = _together([*members, (last.mass, self._in_parent(one, last), np.zeros((3, 3)))])
-        mass, centre, inertia = joined
+        members = [(last.mass, self._in_parent(one, last), np.zeros((3, 3)))]
+        if one.mass > self.least:
+            members.append((one.mass, one.centre, one.inertia - one.ball * np.eye(3)))
+        mass, centre, inertia = _together(members)
         return [*rest[:-1], one._replace(mass=mass, centre=centre, inertia=inertia, ball=0.0)]
 
     def _links(self, parts: list[_Part], is_plane: bool) -> list[_Link]:

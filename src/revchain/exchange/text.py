@@ -213,16 +213,13 @@ class Text:
                 if not kind:
                     continue
                 body.remove(geom)
-                sentence = f"a geom of {self.name_of('body', body.get('name', 'world'))} shows {kind} {name!r}, whose file is missing"
+                whose = "the ground" if body.tag == "worldbody" else self.name_of("body", body.get("name", ""))
+                what = f"a geom of {whose} shows {kind} {name!r}, whose file is missing"
                 if has_inertia or body.tag == "worldbody" or geom.get("mass") == "0":
-                    self.findings.remark(self.place[geom], sentence)
+                    self.findings.remark(self.place[geom], what)
                 else:
-                    self.findings.obstacle(
-                        self.place[geom],
-                        f"{sentence}, and gives the body its mass",
-                        "put the file there, or give the body an inertial",
-                        "visual",
-                    )
+                    instead = "put the file there, or give the body an inertial"
+                    self.findings.obstacle(self.place[geom], f"{what}, and gives the body its mass", instead, "visual")
 
     # ---- URDF
 
@@ -272,7 +269,8 @@ class Text:
                     else:
                         limit.attrib.update(lower="-1e9", upper="1e9")
                         joint.append(limit)
-                    self.findings.remark(self.place[joint], f"{name} has limits of equal ends, {low:g}: taken as without limits")
+                    what = f"{name} has limits of equal ends, {low:g}: taken as without limits"
+                    self.findings.remark(self.place[joint], what)
         if joint.get("type") == "ball":
             joint.set("type", "spherical")
             self.findings.remark(self.place[joint], f"{name} has type ball, which URDF does not have: read as a ball joint")
@@ -334,9 +332,9 @@ class Text:
                 inertial.attrib.pop("fullinertia", None)
                 inertial.set("diaginertia", " ".join([repr(spare)] * 3))
             if mass >= self.least:
-                point = "a point mass" if not moments.any() else "moments of inertia that no body has"
-                whose = self.name_of("body", name)
-                self.findings.remark(self.place[inertial], f"{whose} has {point}: MuJoCo refuses these, and they are read as they are")
+                has = "a point mass" if not moments.any() else "moments of inertia that no body has"
+                what = f"{self.name_of('body', name)} has {has}: MuJoCo refuses these, and they are read as they are"
+                self.findings.remark(self.place[inertial], what)
 
 
 def _link(joint: Element, which: str) -> str | None:
