@@ -3,6 +3,7 @@
 
 import pickle
 import re
+import shlex
 import tomllib
 import warnings
 from pathlib import Path
@@ -666,3 +667,15 @@ def test_any_model_for_the_reader():
 def test_the_words_are_in_the_documentation():
     for word, what in WORDS.items():
         assert re.search(rf"^    {word} +{re.escape(what)}$", rc.from_mjcf.__doc__, re.MULTILINE)
+
+
+def test_the_page_shows_the_command(run, tmp_path, monkeypatch, repository):
+    """The blocks of docs/howto/exchange.md, line by line."""
+    monkeypatch.chdir(tmp_path)
+    Path("examples").symlink_to(repository / "examples")
+    page = (repository / "docs/howto/exchange.md").read_text("utf-8")
+    [block] = re.findall(r"```\n(\$ revchain import.*?)```", page, re.DOTALL)
+    for part in block.split("$ revchain ")[1:]:
+        line, _, shown = part.partition("\n")
+        code, out, err = run(*shlex.split(line))
+        assert (out or err) == shown and code == (0 if out else 3)
