@@ -100,11 +100,12 @@ class Model(Compiled):
     def _parts(self) -> list[_Part]:
         """The rigid bodies from the support down, without the turntable."""
         self.children: list[list[int]] = [[] for _ in range(self.model.nbody)]
-        self.moves = [bool(count) for count in self.model.body_jntnum]  # or something that hangs from it does
+        self.depth = [int(count > 0) for count in self.model.body_jntnum]  # moving bodies of the longest line from here down
         for body in range(self.model.nbody - 1, 0, -1):
             above = int(self.model.body_parentid[body])
             self.children[above].insert(0, body)
-            self.moves[above] |= self.moves[body]
+            own = int(self.model.body_jntnum[above] > 0)
+            self.depth[above] = max(self.depth[above], own + self.depth[body])
         self._look_at_the_whole()
         bodies = self._path()
         for joint in (j for b in bodies for j in self._joints(b)):
@@ -127,7 +128,7 @@ class Model(Compiled):
         """The bodies with joints, from the support down: those that the caller names, or else the longest line."""
         bodies: list[int] = []
         here, rest = 0, set(self.wanted)
-        while below := [b for b in self.children[here] if self.moves[b]]:
+        while below := [b for b in self.children[here] if self.depth[b]]:
             chosen = [b for b in below if rest & self._below(b)] if self.wanted else below
             if self.wanted and len(chosen) < 2:
                 self._leave_out([b for b in below if b not in chosen])
@@ -141,13 +142,19 @@ class Model(Compiled):
 
     def _below(self, body: int) -> set[int]:
         """A body and all that hangs from it."""
-        return {body}.union(*(self._below(b) for b in self.children[body]))
+        found = [body]
+        for each in found:
+            found += self.children[each]
+        return set(found)
 
     def _fork(self, above: list[int], here: int, below: list[int]) -> int:
         """Note that more than one body hangs from another, and which names to give; return the body to follow."""
-        followed = max(below, key=lambda b: len(self._longest(b)))
-        names = [self._plain("body", b) for b in (*above, *self._longest(followed))]
-        named = [name for name in names if name not in self.text.unnamed]
+        followed = max(below, key=self.depth.__getitem__)
+        line = [*above, followed]
+        while lower := [b for b in self.children[line[-1]] if self.depth[b]]:
+            line.append(max(lower, key=self.depth.__getitem__))
+        names = [self._plain("body", b) for b in line if self._joints(b)]
+        named = [name for name in names if name and name not in self.text.unnamed]
         words = (", " if " " in "".join(named) else " ").join(named)
         instead = f'name the links of one chain, such as links="{words}"' if named else "name the bodies, and give links"
         *first, last = [self._name("body", b) for b in below]
@@ -155,11 +162,6 @@ class Model(Compiled):
         what = f"{these} hang from {self._name('body', here)}; only a serial chain can be read"
         self.findings.obstacle(self._place("body", next(b for b in below if b != followed)), what, instead)
         return followed
-
-    def _longest(self, body: int) -> list[int]:
-        """The longest line of bodies that hang one from another, from this one down."""
-        lines = [self._longest(b) for b in self.children[body] if self.moves[b]]
-        return [body, *max(lines, key=len, default=[])]
 
     def _leave_out(self, bodies: list[int]) -> None:
         """Note bodies that do not belong to the chain that the caller names."""

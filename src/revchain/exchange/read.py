@@ -199,7 +199,10 @@ def read_model(function: str, source: Any, root: str, ignore: Any, links: Any) -
         wanted = f"<{root}>" if root else "<mujoco> or <robot>"
         raise Blocked(f"{function}: source must begin with {wanted}, got <{found}>, {other}")
     text.least = _LEAST[found]
-    text.put_right()
+    try:
+        text.put_right()
+    except RecursionError:
+        raise Blocked(f"{function}: elements are nested too deep; MuJoCo takes some 500 bodies, one in another") from None
     compiled = _compiled(mujoco, text, findings)
     model = Model(mujoco, compiled, text, findings)
     model.choose(chosen)

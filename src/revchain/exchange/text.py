@@ -279,11 +279,12 @@ class Text:
 
     def _mend_link(self, name: str, link: Element, joint: Element | None) -> int:
         """Take away meshes, and return their number; give moving links without mass the least mass; mend inertia."""
-        meshes = 0
-        for shape in [each for each in link if each.tag in ("visual", "collision")]:
-            if shape.find("geometry/mesh") is not None:
+        shapes = [each for each in link if each.tag in ("visual", "collision")]
+        meshes = sum(shape.find("geometry/mesh") is not None for shape in shapes)
+        for k, shape in enumerate(shapes):
+            shape.set("name", f"{name} {k}")  # some versions of MuJoCo print a warning of those without a name
+            if shape.tag == "visual" or shape.find("geometry/mesh") is not None:
                 link.remove(shape)
-                meshes += 1
         inertial = link.find("inertial")
         if inertial is not None and name == "world":
             link.remove(inertial)
