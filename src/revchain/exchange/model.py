@@ -384,7 +384,7 @@ class Model(Compiled):
             return np.asarray(part.centre)
         what = f"the free end of {part.name} is not marked, and its centre of gravity is at its pin"
         self.findings.obstacle(self._place("body", body), what, "put a site there")
-        return np.asarray(pin + np.array([0.0, 0.0, -1.0]))
+        return np.asarray(pin + np.eye(3)[np.abs(model.jnt_axis[part.joints[0]]).argmin()])  # for the obstacles that follow
 
     def _ends(self, part: _Part) -> list[Floats]:
         """The ends of the axes of capsules and cylinders of a rigid body; the centres of other geoms."""
