@@ -413,6 +413,23 @@ def test_robots_that_are_read(change):
     assert read(text)[0] == rc.Chain(mass=3.0, length=2.0, names=["bob"])
 
 
+def test_moments_of_inertia_that_mujoco_refuses():
+    """They are read about the axes of their frame; where MuJoCo makes others of them, these count."""
+    turned = BOB.replace('"0 0 -2"/>', '"0 0 -2" rpy="0 0 1.5707963267948966"/>')
+    turned = turned.replace("</inertial>", '<inertia ixx="0.3" iyy="0" izz="0" ixy="0" ixz="0" iyz="0"/></inertial>')
+    chain, said = read(f"<robot>{turned}</robot>")
+    assert chain.radius_of_gyration == pytest.approx([np.sqrt(0.1)], rel=1e-14)
+    assert "line 1: link 'bob' has moments of inertia that no body has: MuJoCo refuses these, and they are read as they are" in said.remarks
+    text = f'<mujoco><worldbody><body name="bob"><joint axis="0 1 0"/><inertial pos="0 0 -2" mass="3" quat="1 0 0 1" diaginertia="0.3 0 0"/></body></worldbody></mujoco>'
+    assert read(text)[0].radius_of_gyration == pytest.approx([np.sqrt(0.1)], rel=1e-14)
+    full = text.replace('quat="1 0 0 1" diaginertia="0.3 0 0"', 'fullinertia="0 0.3 0 0 0 0"')
+    assert read(full)[0].radius_of_gyration == pytest.approx([np.sqrt(0.1)], rel=1e-14)
+    balanced = text.replace("<worldbody>", '<compiler balanceinertia="true" boundinertia="1e-9"/><worldbody>')
+    assert read(balanced)[0].radius_of_gyration == pytest.approx([np.sqrt(0.1 / 3)], rel=1e-6)
+    geoms = text.replace("</body>", '<geom pos="0 0 -1" size="0.1" mass="1"/></body>').replace("<worldbody>", '<compiler inertiafromgeom="true"/><worldbody>')
+    assert read(geoms)[0].mass.tolist() == [1.0] and read(geoms)[0].radius_of_gyration == pytest.approx([np.sqrt(0.4) * 0.1])
+
+
 def test_mass_of_collision_shapes():
     shape = '<collision><origin xyz="0 0 -2"/><geometry><sphere radius="0.1"/></geometry></collision>'
     chain, said = read(f'<robot><link name="bob">{shape}</link>{JOINT}</robot>')

@@ -17,9 +17,6 @@ from ..systems.rig import Rig
 from .findings import Blocked, Findings, ModelWarning, Sentence, ignored, listed_words
 from .model import Model
 from .text import OTHER, Text
-from .write import LEAST, LEAST_OF_URDF
-
-_LEAST = {"mujoco": LEAST, "robot": LEAST_OF_URDF}
 
 
 def from_mjcf(
@@ -190,7 +187,7 @@ def read_model(function: str, source: Any, root: str, ignore: Any, links: Any) -
     with naming(name):
         content = source if is_text else Path(name).read_bytes()
     try:
-        text = Text(content, name, findings, LEAST)
+        text = Text(content, name, findings)
     except (expat.ExpatError, ValueError, LookupError) as error:
         raise Blocked(f"{function}: {error}") from None
     found = text.root.tag
@@ -198,7 +195,6 @@ def read_model(function: str, source: Any, root: str, ignore: Any, links: Any) -
         other = OTHER.get(found, "neither MJCF nor URDF") if root else "neither MJCF nor URDF"
         wanted = f"<{root}>" if root else "<mujoco> or <robot>"
         raise Blocked(f"{function}: source must begin with {wanted}, got <{found}>, {other}")
-    text.least = _LEAST[found]
     try:
         text.put_right()
     except RecursionError:

@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from contextlib import suppress
 from pathlib import Path
-from xml.etree.ElementTree import Element, TreeBuilder
+from xml.etree.ElementTree import Element, SubElement, TreeBuilder
 from xml.parsers import expat
 from xml.sax.saxutils import quoteattr
 
@@ -14,10 +14,10 @@ import numpy as np
 
 from ..systems.numbers import Floats
 from .findings import Findings
+from .write import LEAST, LEAST_OF_URDF
 
 OTHER = {"mujoco": "a model of MuJoCo: use from_mjcf", "robot": "a URDF file: use from_urdf"}
-_LOOKS = {"visual", "statistic", "keyframe", "sensor", "contact", "skin", "material", "texture", "light", "camera", "tuple"}
-_LOOKS |= {"size"}  # of memory
+_LOOKS = {"visual", "statistic", "keyframe", "sensor", "contact", "skin", "material", "texture", "light", "camera", "tuple", "size"}
 _READ = {  # attributes that are read; others, of the solver, are not in all versions of MuJoCo
     "option": {"gravity", "density", "viscosity", "wind"},
     "flag": {"constraint", "equality", "frictionloss", "limit", "passive", "spring", "damper", "gravity", "actuation"},
@@ -25,6 +25,7 @@ _READ = {  # attributes that are read; others, of the solver, are not in all ver
 _NAMED = {"body", "joint", "freejoint"}  # elements that get a name if they have none, and children of the next
 _SECTIONS = {"actuator", "equality", "tendon"}
 _COPIED = {"composite", "replicate", "flexcomp", "default"}  # whose elements MuJoCo names, or that are none
+_HEAVY = {"geom", "frame", "attach", *_COPIED}  # parts of a body that may have mass
 _TENSOR = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 
 
@@ -39,10 +40,12 @@ class Text:
     inertia : dict
         By the name of a body: moments of inertia in the frame of its ``inertial`` that MuJoCo would refuse, as 3 x 3 array.
         The root has others in their place.
+    least : float
+        The mass and moment of inertia of a moving body that count as 0, as MuJoCo takes no 0.
     """
 
-    def __init__(self, text: str | bytes, path: str, findings: Findings, least: float) -> None:
-        self.findings, self.least = findings, least
+    def __init__(self, text: str | bytes, path: str, findings: Findings) -> None:
+        self.findings = findings
         self.folder = Path(path).parent if path else None
         self.place: dict[Element, tuple[str, int]] = {}
         self.by_name: dict[tuple[str, str], Element] = {}
@@ -51,6 +54,7 @@ class Text:
         self.inertia: dict[str, Floats] = {}
         self.root = self._parsed(text, "")
         self.is_urdf = self.root.tag == "robot"
+        self.least = LEAST_OF_URDF if self.is_urdf else LEAST
 
     def _parsed(self, text: str | bytes, file: str) -> Element:
         """The tree of elements, each with its place. Names of namespaces go."""
@@ -66,6 +70,9 @@ class Text:
 
     def put_right(self) -> None:
         """Change what MuJoCo refuses without need, and note it."""
+        if not self.is_urdf:
+            self._include(self.root, set())
+        self.settings = {name: value for each in self.root.iter("compiler") for name, value in each.attrib.items()}
         if self.is_urdf:
             self._put_urdf_right()
         else:
@@ -124,7 +131,6 @@ class Text:
     # ---- MJCF
 
     def _put_mjcf_right(self) -> None:
-        self._include(self.root, set())
         for parent in list(self.root.iter()):
             for child in list(parent):
                 if child.tag in _LOOKS:
@@ -141,12 +147,9 @@ class Text:
             inertial = body.find("inertial")
             if inertial is not None:
                 self._mend_inertial(inertial, name)
-            elif body.find("joint") is not None and body.find("geom") is None and not self._has_parts(body):
-                tiny = f"{self.least!r}"
-                body.insert(0, Element("inertial", pos="0 0 0", mass=tiny, diaginertia=" ".join([tiny] * 3)))
-
-    def _has_parts(self, body: Element) -> bool:
-        return any(child.tag in _COPIED or child.tag in ("frame", "attach") for child in body)
+            elif body.find("joint") is not None and not {child.tag for child in body} & _HEAVY:
+                tiny = repr(self.least)
+                SubElement(body, "inertial", pos="0 0 0", mass=tiny, diaginertia=f"{tiny} {tiny} {tiny}")
 
     def _include(self, parent: Element, seen: set[str]) -> None:
         """Put the elements of included files in their place; note files that are missing."""
@@ -191,9 +194,8 @@ class Text:
 
     def _drop_lost_meshes(self) -> None:
         """Take away meshes whose file is missing, and the geoms that show them."""
-        settings = {name: value for each in self.root.iter("compiler") for name, value in each.attrib.items()}
-        base = self.folder or Path()
-        folder = base / settings.get("meshdir", settings.get("assetdir", ""))
+        settings = self.settings
+        folder = (self.folder or Path()) / settings.get("meshdir", settings.get("assetdir", ""))
         lost: set[tuple[str, str]] = set()
         for assets in self.root.iter("asset"):
             for asset in list(assets):
@@ -293,7 +295,9 @@ class Text:
         elif joint is None or joint.get("type") == "fixed":
             pass
         elif link.find("collision") is None:
-            self._add_inertial(link, self.least)
+            inertial = SubElement(link, "inertial")
+            SubElement(inertial, "mass", value=repr(self.least))
+            SubElement(inertial, "inertia", _tensor(*[self.least] * 3))
             if meshes:
                 self.findings.remark(self.place[link], f"link {name!r} has no inertial: it is without mass")
         else:
@@ -302,16 +306,12 @@ class Text:
             )
         return meshes
 
-    def _add_inertial(self, link: Element, mass: float) -> None:
-        inertial = Element("inertial")
-        inertial.append(Element("mass", value=repr(mass)))
-        inertial.append(Element("inertia", _tensor(self.least)))
-        link.append(inertial)
-
     # ---- both
 
     def _mend_inertial(self, inertial: Element, name: str) -> None:
         """Give MuJoCo moments of inertia that it takes, where it would refuse those of the file; keep these."""
+        if "boundinertia" in self.settings or "true" in map(self.settings.get, ("balanceinertia", "inertiafromgeom")):
+            return  # MuJoCo makes others of them
         with suppress(ValueError):  # no numbers: MuJoCo says so
             mass, moments = _inertia_of(inertial, self.is_urdf)
             if mass < 0:
@@ -326,12 +326,13 @@ class Text:
             if values[0] > 0 and values[2] <= (values[0] + values[1]) * (1 + 1e-12):
                 return
             self.inertia[name] = moments
-            spare = max(float(np.abs(moments).max()), self.least)
+            size = max(float(np.abs(moments).max()), 2 * self.least)
+            others = (size, 0.9 * size, 0.8 * size)  # unequal, so that MuJoCo keeps the axes
             if self.is_urdf:
-                _set(inertial, "inertia", **_tensor(spare))
+                _set(inertial, "inertia", **_tensor(*others))
             else:
                 inertial.attrib.pop("fullinertia", None)
-                inertial.set("diaginertia", " ".join([repr(spare)] * 3))
+                inertial.set("diaginertia", " ".join(map(repr, others)))
             if mass >= self.least:
                 has = "a point mass" if not moments.any() else "moments of inertia that no body has"
                 what = f"{self.name_of('body', name)} has {has}: MuJoCo refuses these, and they are read as they are"
@@ -339,21 +340,20 @@ class Text:
 
 
 def _link(joint: Element, which: str) -> str | None:
+    """The name of the parent or child of a joint."""
     found = joint.find(which)
     return None if found is None else found.get("link")
 
 
-def _tensor(moment: float) -> dict[str, str]:
-    return {name: repr(moment) if name in _TENSOR[:3] else "0" for name in _TENSOR}
+def _tensor(*moments: float) -> dict[str, str]:
+    """The attributes of an ``inertia`` with these moments about its axes."""
+    return dict(zip(_TENSOR, [*map(repr, moments), "0", "0", "0"], strict=True))
 
 
 def _set(parent: Element, tag: str, **given: str) -> None:
     """Set the attributes of a child, which is made if there is none."""
     child = parent.find(tag)
-    if child is None:
-        child = Element(tag)
-        parent.append(child)
-    child.attrib.update(given)
+    (SubElement(parent, tag) if child is None else child).attrib.update(given)
 
 
 def _inertia_of(inertial: Element, is_urdf: bool) -> tuple[float, Floats]:
