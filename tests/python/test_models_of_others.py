@@ -638,7 +638,7 @@ def test_the_command(run, here):
     assert scene.system() == read(FULL, ignore="all")[0] and scene.gravity_value() == 9.81 and scene.title == "full"
     written = Path("full.toml").read_text()
     assert all(f"#   {reason}\n" in written for _, reason in REASONS)
-    assert run("run", "full.toml", "--quiet")[0] == 0 and Path("out/full/modes.json").exists()
+    assert run("modes", "full.toml")[0] == 0 and "valid" in run("validate", "full.toml")[1]
     code, _, err = run("import", "full.xml", "--ignore", "all")
     assert (code, err) == (4, "revchain: full.toml: exists already; --force overwrites it\n")
     assert run("import", "full.xml", "--ignore", "all", "--force")[0] == 0 and Path("full.toml").read_text() == written
