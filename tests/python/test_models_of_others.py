@@ -482,6 +482,16 @@ def test_a_link_that_turns_over_is_refused():
         rc.from_mjcf(text)
 
 
+def test_a_chain_that_would_stand_is_refused():
+    """With what could be left out, in one list."""
+    text = f"""<mujoco><worldbody><body name="a"><joint axis="0 1 0"/><inertial pos="0 0 3" mass="9" diaginertia="1 1 1"/>
+      <body name="b" pos="0 0 -1"><joint axis="0 1 0" frictionloss="1"/>{BODY}</body></body></worldbody></mujoco>"""
+    with pytest.raises(ValueError, match="(?s)for 2 reasons:\n  line 1: body 'a': it would stand, not hang; .*removes some of these reasons"):
+        rc.from_mjcf(text)
+    with pytest.raises(ValueError, match="^revchain.from_mjcf: line 1: body 'a': it would stand, not hang; .*; change the model$"):
+        rc.from_mjcf(text, ignore="friction")
+
+
 def test_turntables():
     arm = f"""<mujoco><worldbody><body name="arm"><joint name="turn" axis="0 0 1"/><geom size="0.1" mass="1"/>
       <body name="bob" pos="0.5 0 0"><joint name="pin" axis="0 1 0"/>{BODY}</body></body></worldbody></mujoco>"""

@@ -24,6 +24,9 @@ WORDS = {
 """What the argument `ignore` may name."""
 
 
+_SOME = "removes some of these reasons; the others need a change of the model"
+
+
 class ModelWarning(UserWarning):
     """What `from_mjcf` and `from_urdf` left out of a model or changed in it, and the gravity of the model.
 
@@ -106,7 +109,7 @@ class Findings:
             raise Blocked(f"{self.function}: {lines[0]}")
         if any(self.words):
             words = " ".join(sorted({*self.words, *self.ignore} - {""}))
-            lines.append(f'ignore="{words}" ' + ("reads the file without them" if all(self.words) else "leaves the others"))
+            lines.append(f'ignore="{words}" ' + ("reads the file without them" if all(self.words) else _SOME))
         head = f"{self.function}: the model is no hanging chain, for {count} reasons:"
         raise Blocked("\n  ".join([head, *lines]))
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import re
 from contextlib import suppress
 from typing import Any, NamedTuple
 
@@ -84,8 +85,26 @@ class Model(Compiled):
         links = self._links(self._without_wheel(parts) if is_plane else parts, is_plane)
         if self.turn is not None:
             given["radius"] = self._arm(self.turn, parts[0].joints, is_plane, any(link.axial for link in links))
-        self.findings.check()
-        links.reverse()
+        system = self._made(links[::-1], given) if all(self.findings.words) else None
+        if system is None or self.findings.obstacles:
+            self.findings.stop()
+        return system
+
+    def _made(self, links: list[_Link], given: dict[str, Any]) -> Chain | Rig | None:
+        """The system of links from the free end up; None, and an obstacle, if there is no such system."""
+        try:
+            return self._system(links, given)
+        except ValueError as error:
+            sentence = str(error).partition(": ")[2]
+        found = re.match(r"links\[(\d+)\](: )?", sentence)
+        name = links[int(found[1])].name if found else ""
+        if found:
+            sentence = self.text.name_of("body", name) + (found[2] or "") + sentence[found.end() :]
+        self.findings.obstacle(self.text.place_of("body", name), sentence, "change the model")
+        return None
+
+    def _system(self, links: list[_Link], given: dict[str, Any]) -> Chain | Rig:
+        """The system of links from the free end up."""
         axial = np.array([link.axial for link in links])
         chain, support = _chain(links, self._numeric(RATIO), self.text.unnamed), Support(**given)
         pins = Pin(stiffness=[link.stiffness for link in links], damping=[link.damping for link in links])

@@ -202,12 +202,7 @@ def read_model(function: str, source: Any, root: str, ignore: Any, links: Any) -
     compiled = _compiled(mujoco, text, findings)
     model = Model(mujoco, compiled, text, findings)
     model.choose(chosen)
-    try:
-        system = model.system()
-    except Blocked:
-        raise
-    except ValueError as error:  # of a chain that it would make
-        raise Blocked(f"{function}: {str(error).partition(': ')[2]}") from None
+    system = model.system()
     left_out, remarks = (tuple(sorted(each)) for each in (findings.left_out, findings.remarks))
     title = text.root.get("model" if found == "mujoco" else "name", "")
     return Imported(system, model.gravity, title, left_out, remarks, found == "mujoco")
