@@ -259,6 +259,15 @@ def test_each_word_leaves_out_its_own(word):
     assert "for 8 reasons" in str(raised.value) and dict(REASONS)[word] not in str(raised.value)
 
 
+def test_the_message_has_all_words_that_are_needed():
+    """Those that were given, too, so that it can be copied."""
+    words = [word for word, _ in REASONS]
+    with pytest.raises(ValueError) as raised:
+        rc.from_mjcf(FULL, ignore=words[1:])
+    said = re.search(r'; set density and viscosity of option to 0, or ignore="(.*)"$', str(raised.value))[1]
+    assert sorted(said.split()) == sorted(words) and read(FULL, ignore=said)[1].left_out
+
+
 @pytest.mark.parametrize(
     "ignore", ["all", [word for word, _ in REASONS], tuple(WORDS), ", ".join(WORDS), " ".join(WORDS), {"all"}]
 )

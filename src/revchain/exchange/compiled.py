@@ -180,7 +180,7 @@ class Compiled:
                 self._obstacle("joint", joint, f"has a negative {word}, {value:g}", "give 0 or more", word)
         if not model.jnt_limited[joint] or not self._acts("constraint", "limit"):
             return
-        low, high = model.jnt_range[joint] * (1.0 if is_slide else math.degrees(1.0))
+        low, high = model.jnt_range[joint] if is_slide else map(math.degrees, model.jnt_range[joint])
         has = f"has a range, {low:g} to {high:g} {'m' if is_slide else 'degrees'}"
         if is_slide and low < model.qpos0[model.jnt_qposadr[joint]] < high:
             self._remark("joint", joint, f"{has}: the ends of the rail are left out")

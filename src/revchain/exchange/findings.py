@@ -90,8 +90,7 @@ class Findings:
         if word in self.ignore:
             self.left_out.append(Sentence(place, what))
             return
-        help_text = f'; {instead}, or ignore="{word}"' if word else f"; {instead}"
-        self.obstacles.append(Sentence(place, what + help_text))
+        self.obstacles.append(Sentence(place, f"{what}; {instead}" + (f', or ignore="{word}"' if word else "")))
         self.words.append(word)
 
     def leave_out(self, place: tuple[str, int], what: str) -> None:
@@ -105,10 +104,10 @@ class Findings:
     def stop(self) -> NoReturn:
         """Raise an error with all obstacles."""
         lines = list(dict.fromkeys(map(str, sorted(self.obstacles))))
+        words = " ".join(sorted({*self.words, *self.ignore} - {""}))
         if (count := len(lines)) == 1:
-            raise Blocked(f"{self.function}: {lines[0]}")
+            raise Blocked(f"{self.function}: {lines[0]}".replace(f'ignore="{self.words[0]}"', f'ignore="{words}"'))
         if any(self.words):
-            words = " ".join(sorted({*self.words, *self.ignore} - {""}))
             lines.append(f'ignore="{words}" ' + ("reads the file without them" if all(self.words) else _SOME))
         head = f"{self.function}: the model is no hanging chain, for {count} reasons:"
         raise Blocked("\n  ".join([head, *lines]))
