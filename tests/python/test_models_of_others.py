@@ -669,6 +669,10 @@ def test_the_command_reads_urdf_and_trees(run, here):
     assert code == 0 and "gravity 9.81 m/s^2, that of MuJoCo, as URDF has none" in out and rc.load_scene("a.toml").title == "two"
     code, _, err = run("import", "tree.xml")
     assert code == 3 and 'such as --links "root right low"' in err
+    assert run("import", "robot.urdf", "--ignore", "friction", "--ignore", "damping range", "-o", "b.toml")[0] == 0
+    assert type(rc.load_scene("b.toml").system()) is rc.Chain
+    assert run("import", "tree.xml", "--links", "root", "--links", "left arm", "-o", "c.toml")[0] == 0
+    assert rc.load_scene("c.toml").system().names == ("left arm", "root")
     code, out, _ = run("import", "tree.xml", "--links", "right")
     assert code == 0 and "body 'left arm', 1 kg" in out and rc.load_scene("tree.toml").system().names == ("right", "root")
 
@@ -681,6 +685,8 @@ def test_the_command_reads_urdf_and_trees(run, here):
         (["full.xml", "--ignore", "all that"], 2, f"--ignore must have words of {ALL_WORDS}, or be \"all\", got 'that'"),
         (["full.xml", "--ignore", "all", "--links", "x"], 2, "--links must be names of bodies, 'upper'; got 'x'"),
         (["full.xml", "--ignore", "all", "--out", "no/a.toml"], 4, "no/a.toml: cannot be written: No such file or directory"),
+        (["full.xml", "--ignore", "all", "--out", "./full.xml", "--force"], 2, "full.xml: the model itself would be overwritten"),
+        (["full.xml", "--ignore", "all", "-o", "a.json"], 2, "--out: the scene is TOML: its name must not end in .json, got a.json"),
         (["notes.txt"], 3, "notes.txt: syntax error: line 1, column 0"),
         (["page.html"], 3, "page.html: source must begin with <mujoco> or <robot>, got <html>, neither MJCF nor URDF"),
         ([], 2, "missing argument 'FILE'; see revchain import --help"),

@@ -13,6 +13,7 @@ import typer
 from ..exchange.findings import Blocked
 from ..exchange.read import read_model
 from ..results.files import written_aside
+from ..scenes.parse import is_json
 from ..scenes.write import scene_text
 from . import ExitCode
 from .frame import STDOUT, Stop, app, epilog, guarded
@@ -27,17 +28,22 @@ def import_model(
         typer.Option("--out", "-o", metavar="SCENE|-", help="Scene to write; FILE.toml in this folder if left out; - is stdout."),
     ] = None,
     ignore: Annotated[
-        str, typer.Option(metavar='"WORD ..."|all', help="What to leave out; the list of obstacles names the words that help.")
-    ] = "",
+        list[str] | None, typer.Option(metavar='"WORD ..."|all', help="What to leave out; the list of obstacles names the words that help.")
+    ] = None,
     links: Annotated[
-        str | None, typer.Option(metavar='"BODY ..."', help="The bodies that are the links, if the model branches.")
+        list[str] | None, typer.Option(metavar='"BODY ..."', help="The bodies that are the links, if the model branches.")
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite an existing scene.")] = False,
 ) -> None:
     """Write a model of a multibody engine (MJCF, URDF) as a scene, and list what was left out."""
     scene = Path(f"{file.stem}.toml" if out is None else out)
+    if scene.resolve() == file.resolve():
+        raise Stop(f"{file}: the model itself would be overwritten", ExitCode.WRONG_USAGE)
+    if is_json(str(scene)):
+        raise Stop(f"--out: the scene is TOML: its name must not end in .json, got {scene}", ExitCode.WRONG_USAGE)
     try:
-        model = read_model(str(file), file, "", ignore, links)
+        chosen = links[0] if links and len(links) == 1 else links  # each option may be given once for each word
+        model = read_model(str(file), file, "", " ".join(ignore or []), chosen)
     except OSError as error:
         raise Stop(f"{file}: cannot be read: {error.strerror or error}", ExitCode.SCENE_INVALID) from None
     except Blocked as error:
