@@ -439,6 +439,16 @@ def test_moments_of_inertia_that_mujoco_refuses():
     assert read(geoms)[0].mass.tolist() == [1.0] and read(geoms)[0].radius_of_gyration == pytest.approx([np.sqrt(0.4) * 0.1])
 
 
+def test_blank_lines_above_the_declaration(tmp_path):
+    """Text in a program often begins with a line feed; lines are counted with it."""
+    for above in ("", "\n", "\n\n  "):
+        text = f'{above}<?xml version="1.0"?>\n<robot>{BOB}</robot>'.replace("continuous", "floating")
+        (tmp_path / "a.urdf").write_text(text)
+        for source in (text, tmp_path / "a.urdf"):
+            with pytest.raises(ValueError, match=f"line {above.count(chr(10)) + 2}: joint 'pin' is neither a hinge"):
+                rc.from_urdf(source)
+
+
 def test_mass_of_collision_shapes():
     shape = '<collision><origin xyz="0 0 -2"/><geometry><sphere radius="0.1"/></geometry></collision>'
     chain, said = read(f'<robot><link name="bob">{shape}</link>{JOINT}</robot>')

@@ -303,7 +303,8 @@ class Model(Compiled):
             return False
         if tilt > 1 - 1e-6:
             what = "turns about the vertical: gravity does not swing its link back"
-            self._obstacle("joint", every[0], what, "a chain hangs from level hinges")
+            where = "; URDF has no gravity, and that of MuJoCo points to -z" if self.text.is_urdf else ""
+            self._obstacle("joint", every[0], what, f"a chain hangs from level hinges{where}")
         elif tilt > _NEAR and self.turn is None:
             self.gravity *= math.sqrt(1 - tilt**2)
             what = f"is inclined by {math.degrees(math.asin(tilt)):.3g} degrees: gravity in the plane of motion is"

@@ -59,13 +59,15 @@ class Text:
     def _parsed(self, text: str | bytes, file: str) -> Element:
         """The tree of elements, each with its place. Names of namespaces go."""
         parser, builder = expat.ParserCreate(), TreeBuilder()
+        begin = len(text) - len(text.lstrip())  # a declaration must come first
+        above = sum(each in ("\n", 10) for each in text[:begin])
 
         def start(tag: str, given: dict[str, str]) -> None:
             plain = {name: value for name, value in given.items() if ":" not in name and name != "xmlns"}
-            self.place[builder.start(tag, plain)] = file, parser.CurrentLineNumber
+            self.place[builder.start(tag, plain)] = file, above + parser.CurrentLineNumber
 
         parser.StartElementHandler, parser.EndElementHandler = start, builder.end
-        parser.Parse(text, True)
+        parser.Parse(text[begin:], True)
         return builder.close()
 
     def put_right(self) -> None:
