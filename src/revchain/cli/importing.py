@@ -25,10 +25,11 @@ def import_model(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="Model of MuJoCo (MJCF) or robot description (URDF).")],
     out: Annotated[
         str | None,
-        typer.Option("--out", "-o", metavar="SCENE|-", help="Scene to write; FILE.toml in this folder if left out; - is stdout."),
+        typer.Option("--out", "-o", metavar="SCENE|-", help="Scene to write; FILE.toml here if left out; - is stdout."),
     ] = None,
     ignore: Annotated[
-        list[str] | None, typer.Option(metavar='"WORD ..."|all', help="What to leave out; the list of obstacles names the words that help.")
+        list[str] | None,
+        typer.Option(metavar='"WORD ..."|all', help="What to leave out; the list of obstacles names the words that help."),
     ] = None,
     links: Annotated[
         list[str] | None, typer.Option(metavar='"BODY ..."', help="The bodies that are the links, if the model branches.")

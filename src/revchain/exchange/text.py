@@ -17,7 +17,8 @@ from .findings import Findings
 from .write import LEAST, LEAST_OF_URDF
 
 OTHER = {"mujoco": "a model of MuJoCo: use from_mjcf", "robot": "a URDF file: use from_urdf"}
-_LOOKS = {"visual", "statistic", "keyframe", "sensor", "contact", "skin", "material", "texture", "light", "camera", "tuple", "size"}
+_LOOKS = {"visual", "statistic", "keyframe", "sensor", "contact", "skin", "material", "texture", "light", "camera"}
+_LOOKS |= {"tuple", "size"}  # without an effect, too
 _READ = {  # attributes that are read; others, of the solver, are not in all versions of MuJoCo
     "option": {"gravity", "density", "viscosity", "wind"},
     "flag": {"constraint", "equality", "frictionloss", "limit", "passive", "spring", "damper", "gravity", "actuation"},
