@@ -22,7 +22,7 @@ Closed forms
     FunicularPolygon, TransverseModes
 Files
     Scene, load_scene, Study, load_study, sweep, SceneError; of multibody engines to_mjcf, from_mjcf, to_urdf,
-    from_urdf
+    from_urdf, ModelWarning
 C++
     cmake_prefix: the folder of the C++ headers in this package
 
@@ -112,6 +112,7 @@ if _TYPE_CHECKING:
     from .closed_forms.strings import TransverseModes as TransverseModes
     from .closed_forms.strings import funicular_polygon as funicular_polygon
     from .closed_forms.strings import transverse_modes as transverse_modes
+    from .exchange.findings import ModelWarning as ModelWarning
     from .exchange.write import to_mjcf as to_mjcf
     from .exchange.read import from_mjcf as from_mjcf
     from .exchange.read import from_urdf as from_urdf
@@ -154,6 +155,7 @@ _LATER = dict.fromkeys(_CLOSED_FORMS, "closed_forms") | {
 _RECEIVED = {  # classes of results that no program makes; `dir` leaves them out
     "Certificate": "results.modes",
     "GovernorEquilibria": "closed_forms.governor",
+    "ModelWarning": "exchange.findings",
     "OtherModes": "results.modes",
     "Place": "results.shapes",
     "StabilityWindow": "results.branches",

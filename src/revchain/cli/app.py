@@ -17,7 +17,7 @@ from ..results.files import written_aside
 from ..scenes.error import SceneError
 from ..scenes.scene import json_schema, load_scene
 from ..studies.study import study_schema
-from . import ExitCode, animate, ask, sweep  # noqa: F401  their commands come first
+from . import ExitCode, animate, ask, sweep, importing  # noqa: F401  their commands come first
 from .frame import STDOUT, Stop, app, epilog, guarded
 
 
