@@ -146,8 +146,8 @@ def branches(
         Chains and rigs: whether to leave out branches with a link above its upper pin (for a rig: with other links
         inverted than those of the rig). If false, the branches of all ``2**N`` postures are found; N at most 10.
     stability : bool, optional
-        Whether to compute `Branch.verdict` of every branch now. Otherwise tables and pictures compute it when they need
-        it, if that takes less than about a second.
+        Whether to compute `Branch.verdict` of every branch now; not for cords. Otherwise tables and pictures compute it
+        when they need it, if that takes less than about a second.
 
     Returns
     -------

@@ -228,9 +228,9 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         axes=lambda b: ("place",) if isinstance(b.inclination, tuple) else ("link",),
     )
     verdict: Field[tuple[str, ...]] = Field(
-        "Verdict of `SteadyShape.stability` at each point, in the free frame; empty for the straight chain. Files and data "
-        "frames have this column if it takes less than about a second (points times links squared at most 150,000), or was "
-        "computed before.",
+        "Verdict of `SteadyShape.stability` at each point, in the free frame; empty for the straight chain. Not for cords. "
+        "Files and data frames have this column if it takes less than about a second (points times links squared at most "
+        "150,000), or was computed before.",
         lambda b: b._verdicts(),
     )
     folds: Field[Whole] = Field(
@@ -456,6 +456,9 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
 
     def _judged(self, frame: str) -> tuple[tuple[float, float, str], ...]:
         """Parts of the branch with one verdict: their ends, counted in points, and the verdict."""
+        if self.system._is_cord:
+            what = "is for links, as each verdict of a cord takes long; ask shapes: branch.shape(-1).stability()"
+            raise UnavailableError(f"revchain.Branch.verdict: {what}")
         try:
             if self._is_of_links:
                 system: Any = self.system._under(self.gravity)
@@ -810,9 +813,8 @@ def joined(diagrams: Sequence[Branches], system: Any) -> Branches:
         remark = first.remark
     elif consistent:
         remark = (
-            f"{'proved complete in its own posture' if first.complete else first.remark}; in other postures each shape of "
-            "the proved lists at the heights looked at is on one branch, and isolated loops that lie wholly between two of "
-            "these heights are not excluded"
+            f"{'proved complete in its own posture' if first.complete else first.remark}; in the others each shape of the "
+            "proved lists is on one branch, but loops between two of the heights looked at are not excluded"
         )
     else:
         worst = next(each for each in diagrams if not each.consistent)
