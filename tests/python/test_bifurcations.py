@@ -81,7 +81,7 @@ def test_pitchforks_are_the_modes_and_folds_are_the_folds(seed):
     folds = sorted(speed for branch in diagram for speed in branch.angular_speed[branch.folds])
     np.testing.assert_allclose(marked(axes, "D"), folds, rtol=1e-14)
     above = [label.get_text() for each in axes.child_axes for label in each.get_xticklabels()]
-    said = {f"fold {speed:.4g}" for speed in folds} | {f"pitchfork {speed:.4g}" for speed in expected}
+    said = {f"fold {speed:#.4g}" for speed in folds} | {f"pitchfork {speed:#.4g}" for speed in expected}
     assert set(above) <= said and (len(above) > 0) == (len(said) > 0)
     if len(said) == 1:
         assert set(above) == said

@@ -131,7 +131,7 @@ def test_pictures():
     named += ["fold", "pitchfork", "change of stability"]
     assert [text.get_text() for text in ax.get_legend().get_texts()] == named
     (above,) = ax.child_axes  # speeds of folds and pitchforks stand above the frame: no label hides a loop
-    said = [f"pitchfork {speed:.4g}" for speed in rc.modes(plummets(3), gravity=1.0).angular_speed]
+    said = [f"pitchfork {speed:#.4g}" for speed in rc.modes(plummets(3), gravity=1.0).angular_speed]
     assert [text.get_text() for text in above.get_xticklabels()] == [*said, "fold 3.904"] and len(ax.texts) == 0
     for thing in (diagram, diagram[0]):
         quantities = ("lowest_inclination", "tip_radius", "top_tension", "moment_of_inertia", "effective_energy")

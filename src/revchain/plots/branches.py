@@ -12,6 +12,7 @@ import numpy as np
 from ..closed_forms.table import described
 from ..results.branches import MOST_JUDGED
 from ..results.shapes import is_driven
+from ..results.sheet import digits
 from ..systems.numbers import boolean, word
 from .modes import beside_at_rest
 from .style import SpeedUnit, half_waves_style, legend_outside
@@ -234,7 +235,7 @@ def _label(ax: Axes, marks: list[_Mark]) -> None:
         ax.axvline(at, color=colour, linestyle=":", linewidth=0.8, zorder=1)
         if at - last >= CLOSEST * (right - left):
             ticks.append(at)
-            labels.append(f"{kind} {at:.4g}")
+            labels.append(f"{kind} {digits(at, 4)}")
             last = at
     if not ticks:
         return

@@ -90,9 +90,9 @@ class StabilityWindows(Results[StabilityWindow], row="window", title="{_title_wo
     >>> rc.branches(chain, max_angular_speed=9.0).stability_windows()
     3 windows of stability of 2 branches, in the free frame
     branch  mode            verdict  from speed (rad/s)  to speed (rad/s)  from height (m)  to height (m)  change at the end
-         0     1            minimum             2.39787           9.00000          1.70558       0.121070                end
-         1     2  spectrally stable             5.79427           8.50085         0.292095       0.135704   Hamiltonian Hopf
-         1     2           unstable             8.50085           9.00000         0.135704       0.121070                end
+         0     1            minimum             2.40131           9.00000          1.70069       0.121070                end
+         1     2  spectrally stable             5.79727           8.50090         0.291792       0.135704   Hamiltonian Hopf
+         1     2           unstable             8.50090           9.00000         0.135704       0.121070                end
     """
 
     __slots__ = ()
@@ -677,10 +677,10 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
         >>> carousel = rc.Rig(rc.Chain(mass=80.0, length=4.0), support=rc.Support(radius=1.0))
         >>> windows = rc.branches(carousel, max_angular_speed=4.0).stability_windows()
         >>> for number, window in zip(windows.branch, windows):
-        ...     print(number, window.verdict, np.round(window.angular_speed, 4), window.change)
-        0 minimum [0.1466 4.    ] end
-        1 unstable [4.     2.2878] fold
-        1 spectrally stable [2.2878 4.    ] end
+        ...     print(number, window.verdict, round(window.angular_speed[1], 4), window.change)
+        0 minimum 4.0 end
+        1 unstable 2.2878 fold
+        1 spectrally stable 4.0 end
         """
         caller = "revchain.Branches.stability_windows"
         unit = word(caller, "speed", speed, SPEED_UNITS)
