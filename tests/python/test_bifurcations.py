@@ -264,6 +264,9 @@ def test_scenes_ask_for_postures_and_stability(tmp_path):
     asked = {"max_angular_speed": 9.0, "hanging_only": False, "stability": True}
     found = rc.Scene.from_dict({"links": links, "ask": {"branches": asked}}).branches()
     assert found == rc.branches(THREE, **asked) and "verdict" in found[0].__dict__
+    cord = {"cord": {"length": 1.0, "mass": 1.0}, "ask": {"branches": {"max_angular_speed": 9.0, "hanging_only": False}}}
+    with pytest.raises(rc.SceneError, match="ask.branches.hanging_only: is for a chain that hangs, got false"):
+        rc.Scene.from_dict(cord)
 
 
 def test_a_speed_is_all_that_at_needs():

@@ -281,7 +281,7 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
 
     def at(
         self,
-        angular_speed: float | str | None = None,
+        angular_speed: float | None = None,
         *,
         conical_height: float | None = None,
         gravity: float | None = None,
@@ -321,7 +321,7 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         if hasattr(self.system, "support") and g != self.gravity:
             what = f"gravity must be that of the rig's branch, {self.gravity:g}"
             raise ValueError(f"{caller}: {what}, got {g:g}; follow it anew")
-        height = height_of(caller, conical_height, angular_speed, g)  # type: ignore[arg-type]
+        height = height_of(caller, conical_height, angular_speed, g)
         if self._shapes is not None:
             what = "is for systems that hang; for a Held ask steady_shapes at the speed"
             raise ValueError(f"{caller}: {what}, got {height:g}")
