@@ -120,6 +120,7 @@ if _TYPE_CHECKING:
     from .closed_forms.bell import Strike as Strike
     from .results.shapes import Place as Place
     from .results.branches import StabilityWindow as StabilityWindow
+    from .results.branches import StabilityWindows as StabilityWindows
     from .results.modes import Certificate as Certificate
     from .results.modes import OtherModes as OtherModes
     from .results.storage import load as load
@@ -159,6 +160,7 @@ _RECEIVED = {  # classes of results that no program makes; `dir` leaves them out
     "OtherModes": "results.modes",
     "Place": "results.shapes",
     "StabilityWindow": "results.branches",
+    "StabilityWindows": "results.branches",
     "Strike": "closed_forms.bell",
 }
 _OF_FILES = {"Scene": "scenes.scene", "load_scene": "scenes.scene", "Study": "studies.study", "load_study": "studies.study"}
