@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Annotated, Any, NoReturn, ParamSpec
 
 import typer
+from typer.core import TyperGroup
 
 from ..plots.style import plain
 from ..scenes.error import SceneError
@@ -78,12 +79,28 @@ def epilog(command: str) -> str:
     return f"Example: [b]{example}[/b]\n\nFiles written: {files}.\n\nExit codes: {codes}."
 
 
+class Commands(TyperGroup):
+    """The commands; a scene file in the place of one means `run`."""
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        return super().resolve_command(ctx, ["run", *args] if self._is_scene(args[0]) else args)
+
+    def _is_scene(self, word: str) -> bool:
+        return word not in self.commands and (word.lower().endswith((".toml", ".json")) or Path(word).is_file())
+
+
+_WHAT = (
+    "Whirl speeds and shapes of hanging chains, with error bounds. [b]revchain new[/b] writes a scene to begin with; "
+    "[b]revchain SCENE[/b] means [b]revchain run SCENE[/b]."
+)
 app = typer.Typer(
+    cls=Commands,
     add_completion=True,
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     rich_markup_mode="rich",
-    help="Whirl speeds and shapes of hanging chains, with error bounds.",
+    subcommand_metavar="COMMAND [ARGS]... | SCENE",
+    help=_WHAT,
     epilog=EXIT_CODES,
 )
 
@@ -140,7 +157,7 @@ def show_version(wanted: bool) -> None:
         raise typer.Exit
 
 
-@app.callback()
+@app.callback(help=_WHAT)
 def common(
     version: Annotated[
         bool, typer.Option("--version", callback=show_version, is_eager=True, help="Print the version and exit.")

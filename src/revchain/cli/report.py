@@ -35,12 +35,13 @@ MANY_TIMES = 12
 class Report:
     """The answer to one question of a scene: as text, JSON, CSV and picture."""
 
-    def __init__(self, scene: Scene, stem: str, found: Any, units: str) -> None:
+    def __init__(self, scene: Scene, stem: str, found: Any, units: str, remark: str = "") -> None:
         self.scene = scene
         self.title = scene.title or stem
         self.system = scene.system().describe()
         self.found = found
         self.units = units
+        self.remark = remark
         self.sheet: Sheet = found._sheet(brief=True)
 
     @cached_property
@@ -119,6 +120,8 @@ class Report:
             for part in (words, grid):
                 if part is not None:
                     console.print(part)
+        if self.remark:
+            console.print(Text(self.remark, style="yellow"))
         for note in self.sheet.notes:
             if self.scene.order == "support first":
                 note = in_file(note, self.scene._bodies())

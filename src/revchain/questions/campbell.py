@@ -41,7 +41,7 @@ def campbell(
     angular_speed : array_like, shape (S,)
         Speeds, rad/s, positive, ascending; at least two.
     orders : iterable of int
-        Multiples of the speed.
+        Multiples of the speed; those listed twice are taken once.
     half_waves : int
         Number of half waves of the shape. If several shapes have this number, the one is taken that is farthest out; with the
         support off the axis it is that which begins at rest.
@@ -83,12 +83,19 @@ def campbell(
     speeds = np.array(positive(_CALLER, "angular_speed", angular_speed))
     if speeds.ndim != 1 or speeds.size < 2 or (np.diff(speeds) <= 0).any():
         raise ValueError(f"{_CALLER}: angular_speed must be a list of at least two ascending speeds, got {shown(angular_speed)}")
-    multiples = tuple(integer(_CALLER, "orders", order) for order in listed(_CALLER, "orders", orders))
+    multiples = tuple(dict.fromkeys(integer(_CALLER, "orders", order) for order in listed(_CALLER, "orders", orders)))
     if not multiples or min(multiples) < 1:
         raise ValueError(f"{_CALLER}: orders must be whole positive numbers, at least one, got {shown(orders)}")
     waves, g = integer(_CALLER, "half_waves", half_waves), one_positive(_CALLER, "gravity", gravity)
     given = (system._under(g), speeds.tolist(), list(multiples), waves, is_driven(_CALLER, frame), g)
-    frequency, stable, crossings = checked(_CALLER, system.by_mass, _core.campbell, *given)
+    try:
+        frequency, stable, crossings = checked(_CALLER, system.by_mass, _core.campbell, *given)
+    except ValueError as error:
+        if "at none of the speeds" not in str(error):
+            raise
+        raise ValueError(f"{error}; on the axis it exists above critical speed {waves} of `modes`: give faster speeds") from None
+    if not frequency.size:
+        raise ValueError(f"{_CALLER}: angular_speed has shapes, but no small motion of them is known (in a fluid that turns); use steady_shapes")
     return Campbell._made(
         None,
         system=system,

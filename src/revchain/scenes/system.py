@@ -29,6 +29,11 @@ System = Whirling | SleeveGovernor
 Given = dict[str, Any]
 
 
+def option(key: str) -> str:
+    """The option of a command that stands for a key of a question."""
+    return f"--{key.replace('_', '-')}"
+
+
 class Numbers:
     """Numbers of one table: text with units converted, ranges checked, errors noted with the key path.
 
@@ -36,16 +41,21 @@ class Numbers:
     masses, else they are multiplied by gravity.
     """
 
-    def __init__(self, source: str, table: str = "", *, gravity: float = 1.0, by_mass: bool = True) -> None:
+    def __init__(
+        self, source: str, table: str = "", *, gravity: float = 1.0, by_mass: bool = True, options: bool = False
+    ) -> None:
         self.source = source
         self.table = table
         self.problems: list[Problem] = []
         self.gravity = gravity
         self.by_mass = by_mass
+        self.options = options  # whether a command asks, whose options stand for the keys of its table
 
     def of(self, table: str) -> Numbers:
         """The numbers of a table inside this one; errors are noted together."""
-        inside = Numbers(self.source, f"{self.table}.{table}".lstrip("."), gravity=self.gravity, by_mass=self.by_mass)
+        inside = Numbers(
+            self.source, f"{self.table}.{table}".lstrip("."), gravity=self.gravity, by_mass=self.by_mass, options=self.options
+        )
         inside.problems = self.problems
         return inside
 
@@ -53,6 +63,11 @@ class Numbers:
     def heavy(self) -> str:
         """The key of a weight: ``mass`` or ``weight``."""
         return "mass" if self.by_mass else "weight"
+
+    def named(self, key: str, value: str = "") -> str:
+        """A key as the user writes it, also with a value: the key of a file, or the option of a command."""
+        name = option(key) if self.options else key
+        return name + (f"{' ' if self.options else ' = '}{value}" if value else "")
 
     def refuse(self, key: str, reason: str) -> None:
         """Note an error of a key of this table."""
@@ -439,6 +454,8 @@ def in_file(sentence: str, links: Links) -> str:
 def problem_of(error: ValueError, key: str, links: Sequence[tuple[int, Link]] = ()) -> Problem:
     """An error of the core as a problem of the file, with the key of the link that it names, or else with `key`."""
     sentence = in_file(without_function(error), list(links))
+    sentence = re.sub(r"; links, got \d+$", "", sentence)  # their number says nothing here
+    sentence = re.sub(r"(; (?:its radius is|it has)), got", r"\1", sentence)
     if links and sentence.startswith("links[") and ": " in sentence:
         key, _, sentence = sentence.partition(": ")
     return Problem(0, 0, key, sentence)

@@ -239,7 +239,7 @@ def outputs_of(scene: Scene, largest: Scene, find: tuple[str, ...], max_shapes: 
     if "modes" in find:
         labels["mode"] = _modes_of(scene, largest)
     if not isinstance(ask := scene.ask.campbell, UnsetType) and "campbell" in find:
-        labels["order"] = (1, 2) if isinstance(ask.orders, UnsetType) else tuple(ask.orders)
+        labels["order"] = (1, 2) if isinstance(ask.orders, UnsetType) else tuple(dict.fromkeys(ask.orders))
     for name, dimension in (("response", "speed"), ("campbell", "campbell_speed")):
         if name in find:
             count = _speeds_of(getattr(scene.ask, name))
