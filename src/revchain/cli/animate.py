@@ -72,7 +72,7 @@ def animate(
     if shown not in MOVING:
         raise Stop(f"--ask: must be one of {', '.join(MOVING)}, got {shown}", ExitCode.WRONG_USAGE)
     with written_aside(out) as [aside], ExitStack() as stack:
-        found = answer_of(scene, read, shown, {}, quiet)
+        found = answer_of(scene, read, shown, None, quiet)
         try:
             getattr(found, METHODS[ending])(aside, figures=which, progress=counted(stack, "frames", quiet), **given)
         except OSError as error:  # names the file of the user, not the temporary one

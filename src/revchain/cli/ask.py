@@ -190,24 +190,24 @@ def _answer(
 ) -> Report:
     """Answer one question and write the files. The outputs are opened first. `changed` are options, None without any."""
     with written_aside(*[file for file, _ in outputs]) as asides:
-        found = answer_of(path, scene, question, changed or {}, quiet, changed is not None)
+        found = answer_of(path, scene, question, changed, quiet)
         report = Report(scene, path.stem, found, units, scene._remark(question, changed or {}, found))
         report.write(outputs, asides)
     return report
 
 
-def answer_of(path: Path, scene: Scene, question: str, changed: dict[str, Any], quiet: bool, options: bool = False) -> Any:
+def answer_of(path: Path, scene: Scene, question: str, changed: dict[str, Any] | None, quiet: bool) -> Any:
     """The result, with a bar while modes are found. Stop where the system has no answer.
 
-    With `options`, the command has an option for each key of the question's table, and messages name those.
+    `changed` are the options given to the command of the question, which messages name; None for other commands.
     """
     if sentence := without_answer(question, scene.system(), path):
         raise Stop(f"{path}: {sentence}", ExitCode.WRONG_USAGE)
+    ask = partial(scene._answer, question, changed or {}, options=changed is not None)
     try:
         if question == "modes":
-            ask = partial(scene._answer, question, changed, options=options)
             return watched(lambda progress: ask(progress), Console(stderr=True), quiet)
-        return scene._answer(question, changed, options=options)
+        return ask()
     except SceneError as error:
         lines = [f"{path}: {_line(each, question, changed)}" for each in error.problems]
         raise Stop("\nrevchain: ".join(lines), ExitCode.WRONG_USAGE) from None
@@ -219,15 +219,15 @@ def _show(report: Report, outputs: list[tuple[Path, str]], heading: bool = True)
     print(f"wrote {', '.join([str(file) for file, _ in outputs])}\n" if outputs else "", end="")
 
 
-def _line(problem: Problem, question: str, changed: dict[str, Any]) -> str:
+def _line(problem: Problem, question: str, changed: dict[str, Any] | None) -> str:
     """The sentence for a problem of an option or of the scene."""
     line, column, key, reason = problem
     if line:
         return f"line {line}, column {column}: {key}: {reason}"
     name, dot, part = key.partition(f"ask.{question}.")[2].partition(".")
     name, bracket, index = name.partition("[")
-    if not name:
-        return f"{key}: {reason}" if key.startswith("links[") else reason
+    if changed is None or not name:
+        return f"{key}: {reason}" if key and (changed is None or key != f"ask.{question}") else reason
     value = changed.get(name)
     if bracket:
         is_pair = _form(next(each for each in fields_of(TABLES[question]) if each.name == name)) is Pair

@@ -75,7 +75,7 @@ class Report:
             what = f"no shape was found with {', '.join(map(str, missing))} half wave{'s' * (list(missing) != [1])}"
         if isinstance(self.found, Modes):
             what = "the tolerance is not met"
-            if self.found.rtol:
+            if self.found.rtol is not None:
                 what += f": asked {self.found.rtol:g}, reached {self.found.error_bound.max():.1e}"
         raise Stop(f"{path}: {what}", ExitCode.TOLERANCE_NOT_MET)
 

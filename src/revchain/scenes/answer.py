@@ -114,8 +114,10 @@ def _modes(table: Table, given: Given, system: Whirling | None, numbers: Numbers
             numbers.refuse(name, f"its low end must lie below its high end, got {got}")
     available = None if system is None else system.mode_count
     first, count = given.get("first", 1), given.get("count", 1)
-    if available is not None and first > available:
-        numbers.refuse("first", f"must be at most {available}, the number of modes, got {first}")
+    if available == 0:
+        numbers.refuse("", "has no answer: one link held at both ends has no pin that could move; give it two links or more")
+    elif available is not None and first > available:
+        numbers.refuse("first", f"must be at most {available}, got {first}")
     elif available is not None and count != "all" and count > available - first + 1:
         given["count"] = available - first + 1  # all there are; `remark` says so
     method = given.get("method", "bisection")

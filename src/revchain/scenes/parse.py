@@ -366,7 +366,7 @@ def _reason(sentence: str, key: str, raw: Any, path: str, annotation: Any) -> st
         return f"must be a pair {'[mean, deviation]' if key.endswith('normal') else '[low, high]'}{got}"
     structs = _table_in(annotation)[0] is not None
     lists = any(get_origin(part) in (list, tuple) for part in parts)
-    if not isinstance(value, list) and lists and structs and not path:
+    if not isinstance(value, list) and _table_in(annotation)[1] is list and not path:
         if isinstance(value, dict):
             return f"is a list of tables: write [[{key}]], with two brackets, above each of them"
         where = "arc_length" if key == "cord.masses" else "length"
@@ -389,7 +389,8 @@ def _reason(sentence: str, key: str, raw: Any, path: str, annotation: Any) -> st
     if any(get_origin(part) is tuple for part in parts) and not path:
         return f'must be a pair [low, high]{got}; either end may be 0 or inf'
     if lists and not path:
-        return f"must be a {'number or a ' if _is_number(annotation) else ''}list of numbers{got}"
+        one = isinstance(value, int | float | str) and not (isinstance(value, bool) or _is_number(annotation))
+        return f"must be a {'number or a ' if _is_number(annotation) else ''}list of numbers{got}{one * f': write [{written(value)}]'}"
     names = {"object": "a table", "array": "a list", "float": "a number", "int": "a whole number", "str": "text"}
     expected = re.fullmatch(r"Expected `(\w+)(?: \| null)?`.*", sentence)
     return f"must be {names.get(expected[1], 'true or false') if expected else 'something else'}{got}"

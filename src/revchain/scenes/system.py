@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import accumulate
 from typing import Any
 
@@ -24,6 +24,7 @@ from .error import Problem, SceneError
 from .parse import without_consequences, written
 from .tables import MOST_LINKS, SYSTEMS, Link, Links, Spread, Table, Tables, number_fields
 
+MOST = 1e100  # largest number of a scene, in SI units: products of a few numbers stay within the range of double
 Whirling = Chain | Rig | Cord | Held
 System = Whirling | SleeveGovernor
 Given = dict[str, Any]
@@ -73,6 +74,15 @@ class Numbers:
         """Note an error of a key of this table."""
         self.problems.append(Problem(0, 0, f"{self.table}.{key}".strip("."), reason))
 
+    def refuse_as(self, error: ValueError, names: Iterable[str]) -> None:
+        """Note an error of a function: of the key among `names` with which its sentence begins, or else of this table."""
+        reason = without_function(error)
+        for name in names:
+            for words in (f"{name} ", f"{name} ".replace("_", " ")):
+                if reason.startswith(words):
+                    return self.refuse(name, reason.removeprefix(words))
+        self.refuse("", reason)
+
     def done(self) -> None:
         """Raise a SceneError if an error was noted."""
         if self.problems:
@@ -94,6 +104,8 @@ class Numbers:
             must = "be positive"
         elif sign == "not negative" and not number >= 0:
             must = "not be negative"
+        elif finite and number and not 1 / MOST <= abs(number) <= MOST:
+            must = f"be {'' if sign == 'positive' else '0 or '}from {1 / MOST:g} to {MOST:g} in size, in SI units"
         else:
             return number
         self.refuse(key, f"must {must}, got {written(given)}")
@@ -205,13 +217,7 @@ def _governor(scene: Tables, table: tables.Governor, numbers: Numbers) -> Sleeve
     try:
         return SleeveGovernor(**given, balls=table.balls, gravity=numbers.gravity)
     except ValueError as error:
-        reason = without_function(error)
-        for name in given:
-            for words in (f"{name} ", f"{name} ".replace("_", " ")):
-                if reason.startswith(words):
-                    numbers.of("governor").refuse(name, reason.removeprefix(words))
-                    return None
-        numbers.refuse("governor", reason)
+        numbers.of("governor").refuse_as(error, given)
         return None
 
 
@@ -220,7 +226,12 @@ def _whole(table: tables.Whole, numbers: Numbers) -> Chain | Cord | None:
     given = numbers.read(table)
     particles: list[Given] = []
     if isinstance(table, tables.Cord) and table.masses is not UNSET:
-        particles = [numbers.of(f"masses[{k}]").read(each) for k, each in enumerate(table.masses)]
+        for k, each in enumerate(table.masses):
+            inside = numbers.of(f"masses[{k}]")
+            particles.append(inside.read(each))
+            if particles[-1]["arc_length"] >= given["length"]:
+                end = f"must be below the length of the cord, {given['length']:g}"
+                inside.refuse("arc_length", f"{end}, got {written(each.arc_length)}")
     if numbers.problems or math.isnan(sum(given.values()) + sum(sum(each.values()) for each in particles)):
         return None
     try:
@@ -235,7 +246,7 @@ def _whole(table: tables.Whole, numbers: Numbers) -> Chain | Cord | None:
             chain = (Chain.uniform_rods if table.kind == "rods" else Chain.uniform_plummets)(table.count, **given)
         return chain.with_body(**{numbers.heavy: tip}) if tip else chain
     except ValueError as error:
-        numbers.problems.append(problem_of(error, numbers.table))
+        numbers.refuse_as(error, given)
         return None
 
 
@@ -456,6 +467,6 @@ def problem_of(error: ValueError, key: str, links: Sequence[tuple[int, Link]] = 
     sentence = in_file(without_function(error), list(links))
     sentence = re.sub(r"; links, got \d+$", "", sentence)  # their number says nothing here
     sentence = re.sub(r"(; (?:its radius is|it has)), got", r"\1", sentence)
-    if links and sentence.startswith("links[") and ": " in sentence:
-        key, _, sentence = sentence.partition(": ")
+    if links and (said := re.match(r"(links\[\d+\](?: \(\".*?\"\))?): ", sentence)):
+        key, sentence = said[1], sentence[said.end() :]
     return Problem(0, 0, key, sentence)

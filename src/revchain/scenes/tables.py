@@ -187,7 +187,7 @@ class Cord(Whole, frozen=True, kw_only=True):
     tip_radius_of_gyration: Annotated[
         MaybeNotNegative, says("Radius of gyration of the bob about its centre of gravity (m).")
     ] = UNSET
-    masses: Annotated[list[PointMass] | UnsetType, says("Point masses on the cord, beside its own mass.")] = UNSET
+    masses: Annotated[list[PointMass] | UnsetType, says("Point masses on the cord, beside its own mass; those at one place are added.")] = UNSET
 
     density: Annotated[
         float,
