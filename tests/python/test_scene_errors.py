@@ -71,7 +71,7 @@ FILES = {
     "rpm": (LINK + "[ask.shapes]\nrpm = 3\n", '5:1 ask.shapes.rpm: unknown key; write angular_speed = "60 rpm"'),
     "one number for two": (LINK + "[ask.modes]\nangular_speed = 30\n", "5:1 ask.modes.angular_speed: must be a pair [low, high], got 30; either end may be 0 or inf"),
     "two numbers for one": (LINK + "[ask.shapes]\nangular_speed = [1, 2]\n", '5:1 ask.shapes.angular_speed: must be a number, or a number and its unit such as "30 rpm", got [1, 2]'),
-    "one number for a list": (LINK + "[ask.swing]\noffset = 1\n", "5:1 ask.swing.offset: must be a list of numbers, got 1"),
+    "one number for a list": (LINK + "[ask.swing]\noffset = 1\n", "5:1 ask.swing.offset: must be a list of numbers, got 1: write [1]"),
     "negative mass": ("[[links]]\nmass = -2\nlength = 1\n", "2:1 links[0].mass: must not be negative, got -2"),
     "both mass and weight": (LINK + "weight = 3\n", "4:1 links[0].weight: is given beside mass: give one of them, not both"),
     "neither mass nor weight": ("[[links]]\nlength = 1\n", "1:1 links[0]: mass (kg) or weight (N) is missing"),

@@ -766,7 +766,7 @@ def test_all_at_once():
         "a.toml: line 1, column 1: scene: b.toml: line 3, column 1: the decimal mark is a point: write length = 2.5, not 2,5",
         "a.toml: line 1, column 1: scene: b.toml: line 4, column 1: links[0].mas: unknown key; did you mean mass?",
         "a.toml: line 2, column 1: sampels: unknown key; did you mean samples?",
-        "a.toml: line 4, column 1: vary.gravity.values: must be a list of numbers, got 3",
+        "a.toml: line 4, column 1: vary.gravity.values: must be a list of numbers, got 3: write [3]",
     ]
 
 

@@ -191,7 +191,7 @@ def _answer(
     """Answer one question and write the files. The outputs are opened first. `changed` are options, None without any."""
     with written_aside(*[file for file, _ in outputs]) as asides:
         found = answer_of(path, scene, question, changed, quiet)
-        report = Report(scene, path.stem, found, units, scene._remark(question, changed or {}, found))
+        report = Report(scene, path.stem, found, units, None if changed is None else changed.get("count"))
         report.write(outputs, asides)
     return report
 

@@ -13,7 +13,7 @@ from typing import Annotated, Any, NoReturn, ParamSpec
 import typer
 from typer.core import TyperGroup
 
-from ..plots.style import plain
+from ..plots.style import save_picture as save_picture
 from ..scenes.error import SceneError
 from ..systems.extras import require
 from . import MEANING, ExitCode
@@ -83,10 +83,9 @@ class Commands(TyperGroup):
     """The commands; a scene file in the place of one means `run`."""
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
-        return super().resolve_command(ctx, ["run", *args] if self._is_scene(args[0]) else args)
-
-    def _is_scene(self, word: str) -> bool:
-        return word not in self.commands and (word.lower().endswith((".toml", ".json")) or Path(word).is_file())
+        word = args[0]
+        is_scene = word not in self.commands and (word.lower().endswith((".toml", ".json")) or Path(word).is_file())
+        return super().resolve_command(ctx, ["run", *args] if is_scene else args)
 
 
 _WHAT = (
@@ -169,12 +168,6 @@ def common(
     """Whirl speeds and shapes of hanging chains, with error bounds."""
     if cmake_prefix:  # alone it is answered by __main__, which does not need typer
         raise typer.BadParameter("--cmake-prefix must be the only argument")
-
-
-def save_picture(axes: Any, title: str, path: Path) -> None:
-    """Write a picture with its title."""
-    axes.set_title(plain(title), wrap=True)
-    axes.figure.savefig(path, dpi=200)
 
 
 def checked_picture(plot: Path) -> None:

@@ -12,6 +12,7 @@ from textwrap import fill
 from typing import Any
 
 import msgspec
+from msgspec import UnsetType
 import numpy as np
 from rich import box
 from rich.console import Console
@@ -35,13 +36,15 @@ MANY_TIMES = 12
 class Report:
     """The answer to one question of a scene: as text, JSON, CSV and picture."""
 
-    def __init__(self, scene: Scene, stem: str, found: Any, units: str, remark: str = "") -> None:
+    def __init__(self, scene: Scene, stem: str, found: Any, units: str, count: int | str | None = None) -> None:
         self.scene = scene
         self.title = scene.title or stem
         self.system = scene.system().describe()
         self.found = found
         self.units = units
-        self.remark = remark
+        if count is None and isinstance(found, Modes) and not isinstance(scene.ask.modes, UnsetType):
+            count = scene.ask.modes.count  # type: ignore[assignment]
+        self.asked = count if isinstance(count, int) and isinstance(found, Modes) else 0
         self.sheet: Sheet = found._sheet(brief=True)
 
     @cached_property
@@ -120,8 +123,11 @@ class Report:
             for part in (words, grid):
                 if part is not None:
                     console.print(part)
-        if self.remark:
-            console.print(Text(self.remark, style="yellow"))
+        numbers: Any = self.sheet.columns[0].values if self.asked and self.sheet.good else []
+        if len(numbers) and self.asked > (there := numbers[-1] - numbers[0] + 1):
+            after = f" from number {numbers[0]} on" if numbers[0] > 1 else ""
+            only = f"there {'is' if there == 1 else 'are'} only {there}{after}"
+            console.print(Text(f"{self.asked} modes are asked for: {only}", style="yellow"))
         for note in self.sheet.notes:
             if self.scene.order == "support first":
                 note = in_file(note, self.scene._bodies())

@@ -93,8 +93,7 @@ def campbell(
     except ValueError as error:
         if "at none of the speeds" not in str(error):
             raise
-        what = str(error).partition(", got ")[0]
-        raise ValueError(f"{what} ({waves}); on the axis it exists above critical speed {waves} of `modes`: give faster speeds") from None
+        raise ValueError(f"{error}; on the axis it exists above critical speed {waves} of `modes`: give faster speeds") from None
     if not frequency.size:
         raise ValueError(f"{_CALLER}: no small motion of the shapes oscillates, or none is known, as in a fluid that turns; use steady_shapes")
     return Campbell._made(

@@ -283,30 +283,15 @@ class Scene(Tables, frozen=True, weakref=True):
         """
         (system, gravity), given = self._built(), None if changed else self._made().get(question)
         try:
-            table = self._table(question, changed)
             if given is None:
                 numbers = Numbers("scene", options=options)
-                given = self._arguments(question, table, system, numbers)
+                given = self._arguments(question, self._table(question, changed), system, numbers)
                 numbers.done()
-            try:
-                return answered(question, system, given, gravity, progress)
-            except ValueError as error:
-                raise SceneError("scene", problems=[self._problem_of(error, question, table)]) from None
-        except SceneError as error:
+            return answered(question, system, given, gravity, progress)
+        except ValueError as error:
+            if not isinstance(error, SceneError):
+                error = SceneError("scene", problems=[self._problem_of(error, question, self._table(question, changed))])
             raise self._in_file(error, question, changed) from None
-
-    def _remark(self, question: str, changed: dict[str, Any], found: Any) -> str:
-        """The sentence for an answer with fewer modes than were asked for, because there are no others; else empty."""
-        if question not in ("modes", "explain"):
-            return ""
-        table: Any = self._table(question, changed)
-        there, *backward = found.available if question == "modes" else [self.system().mode_count]
-        first = 1 if isinstance(table.first, UnsetType) else table.first
-        if not isinstance(table.count, int) or there is None or table.count <= (left := max(there, *backward, 0) - first + 1):
-            return ""
-        after = f" from number {first} on" if first > 1 else ""
-        each = " in a direction" if getattr(found, "has_momentum", False) else ""
-        return f"{table.count} modes are asked for: there {'is' if left == 1 else 'are'} only {left}{after}{each}"
 
     def _problem_of(self, error: ValueError, question: str, table: Table) -> Problem:
         """An error of the function of a question as a problem of the key that it speaks of, or else of the question's table."""
@@ -453,7 +438,7 @@ def read(path: str | os.PathLike[str], changed: dict[str, Any]) -> Scene:
     """Read the scene of a file, with other values of some of its keys."""
     with parse.opened(path) as (raw, problems):
         scene = Scene._read(raw | changed if isinstance(raw, dict) else raw, os.fspath(path), problems)
-    scene._made()["file"] = os.fspath(path)
+    _MADE[id(scene)][1]["file"] = os.fspath(path)
     return scene
 
 
