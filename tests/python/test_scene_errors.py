@@ -14,6 +14,7 @@ import revchain as rc
 from revchain.cli import app as _cli
 from revchain.scenes import parse
 from revchain.scenes.error import Problem
+from revchain.scenes.tables import QUESTIONS, fields_of
 from revchain.scenes.scene import Scene
 
 LINK = "[[links]]\nmass = 1\nlength = 1\n"
@@ -223,6 +224,77 @@ def test_every_error_has_its_place_whatever_is_typed(tmp_path, text, load):
             assert all(1 <= each.line <= text.count("\n") + 2 and each.column >= 1 for each in error.problems), typed
             assert "Expected" not in str(error)
     assert wrong > 150
+
+
+ROD_AND_NUT = LINK + '[[links]]\nname = "nut"\nmass = 2\nlength = 0.5\n'
+ASKED = {  # a system for each question, and keys that it needs
+    "modes": (ROD_AND_NUT, {}),
+    "shapes": (ROD_AND_NUT, {"angular_speed": "5"}),
+    "response": (ROD_AND_NUT + "[support]\nstiffness = 20\n", {"angular_speed": "5"}),
+    "swing": (ROD_AND_NUT, {"offset": "[0.1, 0]"}),
+    "branches": (ROD_AND_NUT, {"max_angular_speed": "6"}),
+    "campbell": (ROD_AND_NUT, {"angular_speed": "[8, 9]"}),
+    "drag": (ARM + AIR, {"angular_speed": "3"}),
+    "equilibria": (GOVERNOR, {"angular_speed": "9"}),
+}
+WRONG = ["0", "-1", "nan", "inf", "-inf", "1e300", "1e-300", "9223372036854775807", "1.5", "true", '"x"', '"3 parsnip"', '"3 kg"', '"-3 s"']
+WRONG += ["[]", "[1, 1]", "[2, 1]", "[-1, 2]", "[0, 0]", "[nan, 1]", '["1 kg", 2]', "[1, 2, 3]", "{}", "{to = 1}", "{from = 2, to = 1}"]
+WRONG += ['{from = "1 kg", to = 2}', "{from = 1, to = 2, steps = 0}", "{from = 1, to = 1e300}", "{from = nan, to = 1}"]
+
+
+@pytest.mark.parametrize("question", ASKED)
+def test_every_wrong_value_of_every_key_is_named(tmp_path, question):
+    """Of each key of each question: a number out of range, another unit, another type: file, line, key and reason."""
+    system, needed = ASKED[question]
+    path, refused = tmp_path / "a.toml", 0
+    keys = [field.encode_name for field in fields_of(QUESTIONS[question])]
+    for key in keys:
+        other = {"angular_speed": "conical_height", "max_angular_speed": "min_conical_height"}
+        for wrong in WRONG:
+            given = {name: value for name, value in needed.items() if key not in (other.get(name), name)} | {key: wrong}
+            table = "".join(f"{name} = {value}\n" for name, value in given.items())
+            path.write_text(f"{system}[ask.{question}]\n{table}")
+            try:
+                rc.load_scene(path)._answer(question, {})
+            except rc.SceneError as error:
+                refused += 1
+                last = path.read_text().count("\n")
+                first = system.count("\n") + 1
+                for line, column, named, reason in error.problems:
+                    assert first <= line <= last and column >= 1 and named.startswith(f"ask.{question}"), (str(error), table)
+                    assert PYTHON.search(reason) is None and not reason.endswith("got"), str(error)
+                assert str(error).startswith(f"{path}: line ")
+    assert refused > 15 * len(keys)
+
+
+HUGE = {
+    "mass": "[[links]]\nlength = 1\nmass = X\n",
+    "length": "[[links]]\nmass = 1\nlength = X\n",
+    "tip_mass": LINK + "tip_mass = X\n",
+    "drag": LINK + "drag = X\n",
+    "pin.stiffness": LINK + "pin.stiffness = X\n",
+    "support.mass": LINK + "[support]\nstiffness = 1\nmass = X\n",
+    "uniform_chain.tip_mass": '[uniform_chain]\nkind = "rods"\ncount = 3\nlength = 1\nmass = 1\ntip_mass = X\n',
+    "cord.tip_mass": CORD + "tip_mass = X\n",
+    "cord.masses[0].mass": CORD + "[[cord.masses]]\narc_length = 0.5\nmass = X\n",
+    "held.tension": LINK + "[held]\ntension = X\n",
+    "governor.ball_mass": "[governor]\narm = 1\nball_mass = X\n",
+    "air_drag.area": ARM + LINK + "air_drag.coefficient = 1\nair_drag.area = X\n[ask.drag]\nangular_speed = 3\n",
+}
+
+
+@pytest.mark.parametrize("number", ["1e200", "1e300", "1e-200", "9e99"])
+@pytest.mark.parametrize("key", HUGE)
+def test_a_number_beyond_all_measure_is_named_itself(tmp_path, key, number):
+    path = tmp_path / "a.toml"
+    path.write_text(HUGE[key].replace("X", number))
+    try:
+        rc.load_scene(path)
+        assert abs(float(number)) < 1e100
+    except rc.SceneError as error:
+        [problem] = error.problems
+        assert problem.key.endswith(key) and f"{key.rpartition('.')[2]} = {number}" in path.read_text().split("\n")[problem.line - 1]
+        assert problem.reason.endswith(f"from 1e-100 to 1e+100 in size, in SI units, got {float(number):g}")
 
 
 ONE = {"mass": 1.0, "length": 1.0}

@@ -15,6 +15,7 @@ import typer
 
 from ..results.files import written_aside
 from ..scenes.error import SceneError
+from ..scenes.parse import is_json
 from ..scenes.scene import json_schema, load_scene
 from ..studies.study import study_schema
 from . import ExitCode, animate, ask, sweep  # noqa: F401  their commands come first
@@ -78,18 +79,21 @@ def new(
     study: Annotated[bool, typer.Option("--study", help="Write a study instead of a scene.")] = False,
 ) -> None:
     """Write an example scene with comments, or an example study."""
-    kind, folder, command = ("study", "studies", "sweep") if study else ("scene", "scenes", "run")
+    kind, folder = ("study", "studies") if study else ("scene", "scenes")
     text = files("revchain").joinpath(folder, f"new_{kind}.toml").read_text(encoding="utf-8")
     if file is None:
         file = Path(f"{kind}.toml")
     if str(file) == STDOUT:
         sys.stdout.write(text)
         return
+    if is_json(str(file)):
+        raise Stop(f"{file}: a {kind} with comments is TOML: write revchain new {file.with_suffix('.toml')}", ExitCode.WRONG_USAGE)
     if file.exists() and not force:
         raise Stop(f"{file}: exists already; --force overwrites it", ExitCode.OUTPUT_FAILED)
     with written_aside(file) as [aside]:
         aside.write_text(text, encoding="utf-8")
-    print(f"wrote {file}; now: revchain {command} {file}")
+    run_it = "sweep " if study else "" if file.suffix.lower() == ".toml" else "run "
+    print(f"wrote {file}; edit it, or now: revchain {run_it}{file}")
 
 
 @app.command(epilog=epilog("schema"))

@@ -185,9 +185,11 @@ def outputs_of(scene: Path, plot: Path | None, json: str | None, csv: str | None
     if plot is not None:
         checked_picture(plot)
         outputs.append((plot, plot.suffix.lower()))
-    files = [path.resolve() for path, _ in outputs]
-    if len(set(files)) < len(files):
-        raise Stop("two outputs have the same name", ExitCode.WRONG_USAGE)
-    if scene.resolve() in files:
-        raise Stop(f"{scene}: the scene itself would be overwritten", ExitCode.WRONG_USAGE)
+    seen = {scene.resolve(): ""}
+    for path, kind in outputs:
+        name = f"--{kind[1:]}" if kind in (".json", ".csv") else "--plot"
+        if (before := seen.setdefault(path.resolve(), name)) == "":
+            raise Stop(f"{name}: {scene}: the scene itself would be overwritten", ExitCode.WRONG_USAGE)
+        if before != name:
+            raise Stop(f"{before} and {name}: two outputs have the same name, {path}", ExitCode.WRONG_USAGE)
     return outputs

@@ -311,7 +311,7 @@ class Scene(Tables, frozen=True, weakref=True):
     def _without_answer(self) -> dict[str, str]:
         """By words in the sentence with which a question refuses a rig: the key of the first datum that is the reason."""
         found = {"a trolley": "support", "carried round": "support.radius", "with dashpots": "support.damping"}
-        found |= {"in a fluid that turns": "fluid", "the cord's own": "cord"}
+        found |= {"a fluid that turns": "fluid", "the cord's own": "cord"}
         for index, link in reversed(self._bodies()):
             found |= {"linear drag": f"links[{index}].drag"} if link.drag is not UNSET else {}
             found |= {"springs at pins": f"links[{index}].pin"} if link.pin is not UNSET else {}
