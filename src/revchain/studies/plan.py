@@ -267,7 +267,8 @@ def _modes_of(scene: Scene, largest: Scene) -> tuple[int, ...]:
     else:
         there = system.size if system._kind == "chain" else system.mode_count or DEFAULT_MODES
     there = max(there - first + 1, 1)
-    count = ask.count if isinstance(ask.count, int) else there if ask.count == "all" else min(DEFAULT_MODES, there)
+    most = math.inf if system._is_cord else there
+    count = int(min(ask.count, most)) if isinstance(ask.count, int) else there if ask.count == "all" else min(DEFAULT_MODES, there)
     return tuple(range(first, first + count))
 
 
