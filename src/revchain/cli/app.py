@@ -17,6 +17,7 @@ from ..results.files import written_aside
 from ..scenes.error import SceneError
 from ..scenes.parse import is_json
 from ..scenes.scene import json_schema, load_scene
+from ..scenes.tables import SYSTEM_TABLES, fields_of
 from ..studies.study import study_schema
 from . import ExitCode, animate, ask, sweep  # noqa: F401  their commands come first
 from .frame import STDOUT, Stop, app, epilog, guarded
@@ -42,12 +43,25 @@ def run(arguments: list[str] | None = None) -> int:
         elif sentence:
             command = "revchain" if context is None else context.command_path
             sentence = sentence[0].lower() + sentence[1:].rstrip(".")
-            print(f"revchain: {sentence}; see {command} --help", file=sys.stderr)
+            print(f"revchain: {sentence}{_instead(error)}; see {command} --help", file=sys.stderr)
         return ExitCode.WRONG_USAGE
     except SystemExit as end:
         return end.code if isinstance(end.code, int) else int(end.code is not None)
     except (KeyboardInterrupt, typer.Abort):
         return ExitCode.INTERRUPTED
+
+
+def _instead(error: Any) -> str:
+    """What to write instead of an option that does not exist: a speed, or a number of the scene."""
+    wrong = getattr(error, "option_name", "").lstrip("-").replace("-", "_")
+    there = [] if error.ctx is None else [name for each in error.ctx.command.params for name in each.opts]
+    if wrong in ("rpm", "hz", "speed", "frequency", "period"):
+        speed = next((name for name in there if name.endswith("angular-speed")), "")
+        return f'; write {speed} "60 rpm", or "1 Hz"' if speed else ""
+    return f"; {wrong} is a key of the scene: change it there" if wrong in _OF_A_SYSTEM else ""
+
+
+_OF_A_SYSTEM = {field.encode_name for kind in SYSTEM_TABLES for field in fields_of(kind)}
 
 
 @app.command(epilog=epilog("validate"))

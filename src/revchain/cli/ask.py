@@ -169,7 +169,7 @@ def _number(text: str) -> Any:
 def read_scene(path: Path, gravity: str | None, units: str) -> Scene:
     """The scene, with another gravity if one is given."""
     if units not in ("deg", "rad"):
-        raise Stop(f"--units: must be deg or rad, got {units}", ExitCode.WRONG_USAGE)
+        raise Stop(f"--units: must be deg or rad, the unit of angles, got {units}", ExitCode.WRONG_USAGE)
     if gravity is None:
         return load_scene(path)
     numbers = Numbers("scene")

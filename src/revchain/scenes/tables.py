@@ -243,6 +243,7 @@ class Governor(Table, frozen=True):
     highest_inclination: Annotated[MaybeAnySign, says("Inclination of the arms at the upper stop (rad).")] = UNSET
 
 
+SYSTEM_TABLES = (Link, UniformChain, TaperedChain, Cord, Held, Governor, Support)
 DEFAULT_MODES = 10
 
 Pair = tuple[NotNegative, NotNegative]
