@@ -267,6 +267,53 @@ def test_every_wrong_value_of_every_key_is_named(tmp_path, question):
     assert refused > 15 * len(keys)
 
 
+RIGGED = '[support]\nradius = 1\n[[links]]\nname = "nut"\nmass = 1\nlength = 1\n'
+SHAPE = "[ask.shapes]\nangular_speed = 5\n"
+UNANSWERED = {  # a rig, a question that has no answer for it, and what is said
+    "linear drag": (RIGGED + "drag = 2\n" + SHAPE, "steady_shapes", "7:1 links[0].drag: steady shapes cannot be found for a rig with linear drag: leave it out"),
+    "drag beside campbell": (RIGGED + "drag = 2\n[ask.campbell]\nangular_speed = [6, 8]\n", "campbell", "7:1 links[0].drag: steady shapes cannot be found for a rig with linear drag: leave it out"),
+    "springs at pins": (RIGGED + "pin = {stiffness = 1}\n" + SHAPE, "steady_shapes", "7:1 links[0].pin: steady shapes cannot be found for a rig with springs at pins: leave them out"),
+    "dashpots": ("[support]\nstiffness = 1\ndamping = 1\n" + LINK + SHAPE, "steady_shapes", "3:1 support.damping: steady shapes cannot be found for a rig with dashpots: leave them out"),
+    "a trolley": ("[support]\nmass = 1\n" + LINK + "[ask.branches]\nmax_angular_speed = 5\n", "branches", "1:1 support: branches cannot be found for a rig with a trolley that rolls freely: give it a stiffness"),
+    "an arm": (RIGGED + "[ask.swing]\noffset = [0.1]\n", "swing", "2:1 support.radius: the support is carried round: it does not let the rig swing; use response, got 1"),
+    "a fluid": ('fluid = "turning"\n' + LINK + "displaced = {mass = 0.1}\n[ask.swing]\noffset = [0.1]\n", "swing", "1:1 fluid: links[0] is in a fluid that turns"),
+    "too slow": (LINK + "[ask.campbell]\nangular_speed = [1, 2]\n", "campbell", "4:1 ask.campbell: at none of the speeds, 1 to 2 rad/s, is there a shape"),
+    "no such shape": (ARM + AIR + "[ask.drag]\nangular_speed = 3\nhalf_waves = 4\n", "drag_shape", "9:1 ask.drag.half_waves: there is no shape without drag"),
+    "too fast": (CORD + "[ask.shapes]\nangular_speed = 1e9\n", "steady_shapes", "4:1 ask.shapes: length / conical height must be at most 1e6"),
+    "in JSON": ('{"links": [{"mass": 1,\n  "length": 1, "drag": 2}],\n "ask": {"shapes": {"angular_speed": 5}}}', "steady_shapes", "2:16 links[0].drag: steady shapes"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "ask", "said"), UNANSWERED.values(), ids=UNANSWERED.keys())
+def test_an_answer_that_fails_names_line_and_key(tmp_path, monkeypatch, capsys, text, ask, said):
+    """Of what is refused only when it is asked: in Python and on the command line, which answers the other questions."""
+    monkeypatch.chdir(tmp_path)
+    name = "a.json" if text.startswith("{") else "a.toml"
+    Path(name).write_text(text)
+    scene = rc.load_scene(name)
+    line, column, key = re.match(r"(\d+):(\d+) (\S+): ", said).groups()
+    with pytest.raises(rc.SceneError) as caught:
+        getattr(scene, ask)()
+    assert str(caught.value).startswith(re.sub(r"^\d+:\d+", f"{name}: line {line}, column {column}:", said))
+    assert caught.value.problems[0][:3] == (int(line), int(column), key) and "Support(" not in str(caught.value)
+    assert _cli.run([name]) == 2
+    assert capsys.readouterr().err == f"revchain: {caught.value}\n"
+    Path(name).unlink()  # without the file there is no line
+    with pytest.raises(rc.SceneError, match=re.escape(f"scene: {said.partition(' ')[2]}")):
+        getattr(scene, ask)()
+
+
+def test_a_value_of_the_caller_has_no_line(tmp_path):
+    path = tmp_path / "a.toml"
+    path.write_text(LINK + "[ask.swing]\noffset = [0.1]\ncount = 1\n")
+    with pytest.raises(rc.SceneError) as caught:
+        rc.load_scene(path).swing(offset=[0.1, 0.2])
+    assert caught.value.problems == ((0, 0, "ask.swing.offset", "must have a number for each of the 1 pins that move, free end first, got 2"),)
+    with pytest.raises(rc.SceneError, match="line 6, column 1: ask.swing.count: must be from 0 to 1, got 3"):
+        path.write_text(LINK + "[ask.swing]\noffset = [0.1]\ncount = 3\n")
+        rc.load_scene(path).swing(offset=[0.2])
+
+
 HUGE = {
     "mass": "[[links]]\nlength = 1\nmass = X\n",
     "length": "[[links]]\nmass = 1\nlength = X\n",

@@ -23,6 +23,7 @@ from ..scenes.parse import written
 from ..scenes.scene import EXCLUSIVE, Scene, load_scene, read
 from ..scenes.system import Numbers, System, option
 from ..systems.extras import require
+from ..systems.units import PATTERN
 from . import ExitCode
 from .frame import STDOUT, Stop, app, epilog, guarded, outputs_of
 from .progress import watched
@@ -149,13 +150,25 @@ def _meant(field: structs.FieldInfo, given: Any) -> Any:
     if form is Pair:
         if " to " not in given:
             return [0, _number(given)]
-        return [_number(part) for part in re.split(r"\s+to\s+", given)]
+        return _of_one_unit(field, [_number(part) for part in re.split(r"\s+to\s+", given)], " to ")
     if form is Spread and (found := re.fullmatch(r"(.*\S)\s+to\s+(.*?\S)(?:\s+in\s+(\d{1,9}))?", given)):
         steps = {"steps": int(found[3])} if found[3] else {}
-        return {"from": _number(found[1]), "to": _number(found[2]), **steps}
+        first, last = _of_one_unit(field, [_number(found[1]), _number(found[2])], " to ")
+        return {"from": first, "to": last, **steps}
     if form in (Spread, list) and (";" in given or form is list):
-        return [_number(part) for part in given.split(";")]
+        return _of_one_unit(field, [_number(part) for part in given.split(";")], "; ")
     return _number(given)
+
+
+def _of_one_unit(field: structs.FieldInfo, parts: list[Any], between: str) -> list[Any]:
+    """The parts of a value; Stop if the last alone has a unit, which may be meant for the others too."""
+    if isinstance(parts[-1], str) and re.match(PATTERN, parts[-1]) and all(isinstance(part, float | int) for part in parts[:-1]):
+        unit = re.sub(r"^\s*[-+.\d]+([eE][-+]?\d+)?\s*", "", parts[-1])
+        if any(parts[:-1]):
+            right = between.join([*(f"{part} {unit}" for part in parts[:-1]), parts[-1]])
+            sentence = f'only the last number has a unit: write "{right}", got {between.join(map(str, parts))}'
+            raise Stop(f"{option(field.encode_name)}: {sentence}", ExitCode.WRONG_USAGE)
+    return parts
 
 
 def _number(text: str) -> Any:
