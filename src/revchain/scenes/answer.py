@@ -191,10 +191,13 @@ def _support_motion(time: Any, moved: Given, numbers: Numbers) -> SupportMotion 
         beside = f"must have as many values as {numbers.named('support_time')}, two or more"
         numbers.refuse(name, f"{beside}, got {sizes[1]} beside {sizes[0]}")
         return None
+    if np.isnan(time).any() or np.isnan(values).any():
+        return None  # noted already
     try:
         return SupportMotion(time, **{name.removeprefix("support_"): values})
     except ValueError as error:
-        numbers.refuse("support_time", str(error).partition(": ")[2].removeprefix("time "))
+        reason = str(error).partition(": ")[2].removeprefix("time ")
+        numbers.refuse("support_time", reason.replace("; time, got", ", got"))
         return None
 
 

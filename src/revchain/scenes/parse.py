@@ -359,7 +359,8 @@ def _reason(sentence: str, key: str, raw: Any, path: str, annotation: Any) -> st
     parts = list(_parts_of(annotation))
     words_allowed = [str(word) for part in parts if get_origin(part) is Literal for word in get_args(part)]
     if words_allowed and value in words_allowed:
-        return f"must be a list: write [{written(value)}]"
+        is_list = any(get_origin(part) is list for part in parts)
+        return f"must be a list: write [{written(value)}]" if is_list else f"must be a number{got}; write {value} without quotes"
     if words_allowed:
         return choice(words_allowed, int in parts, value)
     if "array` of length" in sentence:
@@ -465,7 +466,7 @@ def without_consequences(problems: Iterable[Problem]) -> list[Problem]:
             continue
         remaining.append(problem)
         for mark in re.finditer(r"[.\[]", key):
-            inside[key[: mark.start()]].append((key.rpartition(".")[2], problem.reason))
+            inside[key[: mark.start()]].append((key.rpartition(".")[2].partition("[")[0], problem.reason))
         if key and ": line " not in problem.reason:  # what is wrong with another file has one key
             known.add(key)
     return remaining
