@@ -377,6 +377,8 @@ REFUSED = {  # command lines that end in one sentence without an answer
     "campbell watch.toml --angular-speed '1 to 2 in 3' --orders '1; 0'": "--orders: item 2 must be at least 1, got 0",
     "campbell watch.toml --angular-speed '1 to 2 in 3'": "watch.toml: at none of the speeds, 1 to 2 rad/s, is there a shape",
     "modes watch.toml --angular-speed '1 to 2 to 3'": '--angular-speed: must be "LOW to HIGH", got 1 to 2 to 3',
+    "shapes watch.toml --angular-speed '1 rpm to 3 rpm'": '--angular-speed: must be a number, or a number and its unit such as "30 rpm", got "1 rpm',
+    "response swinging.toml --angular-speed 3 --support-radius '1 to inf'": '--support-radius: must be one number, not a range, got "1 to inf"',
     "shapes watch.toml --angular-speed 1e200": "--angular-speed: must be from 1e-100 to 1e+100 in size, in SI units, got 1e+200",
     "drag arm.toml": '--angular-speed: is missing: write --angular-speed "12 rpm"',
     "drag arm.toml --angular-speed 0": "--angular-speed: must not be 0",
@@ -504,7 +506,7 @@ def test_validate(run):
 
 def test_new(run):
     code, out, _ = run("new")
-    assert code == 0 and out == "wrote scene.toml; edit it, or now: revchain scene.toml\n"
+    assert code == 0 and out == "wrote scene.toml; now: revchain scene.toml\n"
     text = Path("scene.toml").read_text()
     assert text.count("#") > 15 and "revchain THIS_FILE" in text.splitlines()[0]
     assert run("validate", "scene.toml")[0] == run("scene.toml")[0] == 0 and "bell" in Path("out/scene/modes.txt").read_text()
@@ -515,12 +517,12 @@ def test_new(run):
     assert run("new", "-")[1] == text
     assert run("new", "missing/scene.toml")[0] == ExitCode.OUTPUT_FAILED
     ends_in_one_sentence(run("new", "a.json"), ExitCode.WRONG_USAGE, "a.json: a scene with comments is TOML: write revchain new a.toml")
-    assert run("new", "crane") == (0, "wrote crane; edit it, or now: revchain run crane\n", "") and run("crane", "-q") == (0, "", "")
+    assert run("new", "crane") == (0, "wrote crane; now: revchain run crane\n", "") and run("crane", "-q") == (0, "", "")
 
 
 def test_a_new_study_asks_nothing_and_is_computed_at_once(run):
     Path("study.toml").unlink()
-    assert run("new", "--study") == (0, "wrote study.toml; edit it, or now: revchain sweep study.toml\n", "")
+    assert run("new", "--study") == (0, "wrote study.toml; now: revchain sweep study.toml\n", "")
     code, out, err = run("sweep", "study.toml")
     assert (code, err) == (0, "") and "wrote study.csv" in out and len(Path("study.csv").read_text().splitlines()) == 64
 

@@ -107,7 +107,7 @@ def new(
     with written_aside(file) as [aside]:
         aside.write_text(text, encoding="utf-8")
     run_it = "sweep " if study else "" if file.suffix.lower() == ".toml" else "run "
-    print(f"wrote {file}; edit it, or now: revchain {run_it}{file}")
+    print(f"wrote {file}; now: revchain {run_it}{file}")
 
 
 @app.command(epilog=epilog("schema"))

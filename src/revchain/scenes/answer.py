@@ -95,7 +95,9 @@ def arguments(question: str, table: Table, system: System | None, numbers: Numbe
         systems, reason = _ONLY.get((question, field.name), (object, ""))
         if system is not None and not isinstance(system, systems):
             numbers.refuse(field.name, f"is for {reason}, got {written(value)}")
-        given[field.name] = numbers.values(field.name, value, signs[field.name]) if field.name in signs else value
+        given[field.name] = value
+        if field.name in signs:
+            given[field.name] = numbers.values(field.name, value, signs[field.name], "Spread" in str(field.type))
     if question in _CHECKS:
         _CHECKS[question](table, given, system, numbers)
     return given

@@ -111,8 +111,11 @@ class Numbers:
         self.refuse(key, f"must {must}, got {written(given)}")
         return math.nan
 
-    def values(self, key: str, given: Any, sign: str) -> Any:
-        """The value of a key that is named as its quantity: a number, a pair, or an array from a list or a range."""
+    def values(self, key: str, given: Any, sign: str, ranges: bool = True) -> Any:
+        """The value of a key that is named as its quantity: a number, a pair, or an array from a list or a range.
+
+        `ranges` says whether a range is allowed.
+        """
         if isinstance(given, tuple):
             return tuple([self.value(f"{key}[{k}]", end, key, sign, finite=False) for k, end in enumerate(given)])
         if isinstance(given, list):
@@ -127,7 +130,8 @@ class Numbers:
                 return math.nan
             return (np.geomspace if given.log else np.linspace)(first, last, given.steps)
         if isinstance(given, str) and (words := re.fullmatch(r"(\S.*?)\s+to\s+(.+)", given)):
-            self.refuse(key, f'a range is written {{from = "{words[1]}", to = "{words[2]}"}}, got "{given}"')
+            range_ = f'a range is written {{from = "{words[1]}", to = "{words[2]}"}}'
+            self.refuse(key, f'{range_ if ranges else "must be one number, not a range"}, got "{given}"')
             return math.nan
         return self.value(key, given, key, sign)
 
