@@ -157,6 +157,8 @@ def _read_toml_error(message: str, lines: list[str]) -> tuple[int, int, str]:
         return len(lines), len(lines[-1]) + 1, f"{reason} (the file ends)"
     if (found[2], found[3], lines[0][:1]) == ("1", "1", "{"):
         reason = "is JSON: give the file a name that ends in .json"
+    if (found[2], lines[0].lstrip()[:1]) == ("1", "<"):
+        reason = "is XML, not a scene: revchain.from_mjcf and revchain.from_urdf read models of multibody engines"
     reason = re.sub(r"^Cannot (overwrite a value|declare \(.*\) twice|redefine.*)$", "is there twice", reason)
     if reason == "is there twice" and re.match(r"\s*\[\[?links\]", lines[int(found[2]) - 1]):
         reason = LINKS_TWICE
