@@ -101,7 +101,8 @@ def new(
         sys.stdout.write(text)
         return
     if is_json(str(file)):
-        raise Stop(f"{file}: a {kind} with comments is TOML: write revchain new {file.with_suffix('.toml')}", ExitCode.WRONG_USAGE)
+        right = f"a {kind} with comments is TOML: write revchain new {file.with_suffix('.toml')}"
+        raise Stop(f"{file}: {right}", ExitCode.WRONG_USAGE)
     if file.exists() and not force:
         raise Stop(f"{file}: exists already; --force overwrites it", ExitCode.OUTPUT_FAILED)
     with written_aside(file) as [aside]:

@@ -162,12 +162,13 @@ def _meant(field: structs.FieldInfo, given: Any) -> Any:
 
 def _of_one_unit(field: structs.FieldInfo, parts: list[Any], between: str) -> list[Any]:
     """The parts of a value; Stop if the last alone has a unit, which may be meant for the others too."""
-    if isinstance(parts[-1], str) and re.match(PATTERN, parts[-1]) and all(isinstance(part, float | int) for part in parts[:-1]):
-        unit = re.sub(r"^\s*[-+.\d]+([eE][-+]?\d+)?\s*", "", parts[-1])
-        if any(parts[:-1]):
-            right = between.join([*(f"{part} {unit}" for part in parts[:-1]), parts[-1]])
-            sentence = f'only the last number has a unit: write "{right}", got {between.join(map(str, parts))}'
-            raise Stop(f"{option(field.encode_name)}: {sentence}", ExitCode.WRONG_USAGE)
+    *others, last = parts
+    bare = any(others) and all(isinstance(part, float | int) for part in others)
+    if bare and isinstance(last, str) and re.match(PATTERN, last):
+        unit = re.sub(r"^\s*[-+.\d]+([eE][-+]?\d+)?\s*", "", last)
+        right = between.join([*(f"{part} {unit}" for part in others), last])
+        sentence = f'only the last number has a unit: write "{right}", got {between.join(map(str, parts))}'
+        raise Stop(f"{option(field.encode_name)}: {sentence}", ExitCode.WRONG_USAGE)
     return parts
 
 

@@ -293,7 +293,8 @@ class SleeveGovernor(Solved, row="point"):
             raise ValueError(f"{caller}: needs a sleeve: give the governor lower_arm or sleeve_arm")
         speed = float(self.at(angle).angular_speed)
         if not 0 < speed < math.inf:
-            raise ValueError(f"{caller}: inclination must have an equilibrium at a speed above 0, got {angle:g} with speed {speed:g}")
+            must = "inclination must have an equilibrium at a speed above 0"
+            raise ValueError(f"{caller}: {must}, got {angle:g} with speed {speed:g}")
         effort, lift, power = self._found().effort(angle, rise)
         if math.isnan(effort):  # in the axis both the moment of the balls and the way of the sleeve vanish to first order
             joint = given["joint"] or given["arm"]

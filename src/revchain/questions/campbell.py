@@ -61,7 +61,8 @@ def campbell(
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
     ValueError
         If `system` is a `Cord` or a `Held`; if speeds are not positive, finite and ascending; if `orders` has none, or not
-        whole positive numbers; as `steady_shapes` and `SteadyShape.stability`; if there is no such shape at any of the speeds given.
+        whole positive numbers; as `steady_shapes` and `SteadyShape.stability`; if there is no such shape at any of the speeds
+        given, or no small motion of it is known (in a fluid that turns).
 
     Notes
     -----
@@ -93,9 +94,11 @@ def campbell(
     except ValueError as error:
         if "at none of the speeds" not in str(error):
             raise
-        raise ValueError(f"{error}; on the axis it exists above critical speed {waves} of `modes`: give faster speeds") from None
+        faster = f"on the axis it exists above critical speed {waves} of `modes`: give faster speeds"
+        raise ValueError(f"{error}; {faster}") from None
     if not frequency.size:
-        raise ValueError(f"{_CALLER}: no small motion of the shapes oscillates, or none is known, as in a fluid that turns; use steady_shapes")
+        what = "no small motion of the shapes oscillates, or none is known, as in a fluid that turns"
+        raise ValueError(f"{_CALLER}: {what}; use steady_shapes")
     return Campbell._made(
         None,
         system=system,

@@ -223,7 +223,8 @@ def _drag(table: AskDrag, given: Given, system: Whirling | None, numbers: Number
         example = numbers.named("angular_speed", '"12 rpm"')
         numbers.refuse("angular_speed", f"is missing: write {example}")
     elif given["angular_speed"] == 0:
-        numbers.refuse("angular_speed", "must not be 0: at rest air has no effect; positive and negative speeds turn either way")
+        why = "at rest air has no effect; positive and negative speeds turn either way"
+        numbers.refuse("angular_speed", f"must not be 0: {why}")
     if system is not None and not (isinstance(system, Rig) and system.support.radius):
         why = "needs a support off the axis, which carries the chain round"
         numbers.refuse("", f'{why}: write [support] and radius = "2 m"')

@@ -362,7 +362,8 @@ def _reason(sentence: str, key: str, raw: Any, path: str, annotation: Any) -> st
     words_allowed = [str(word) for part in parts if get_origin(part) is Literal for word in get_args(part)]
     if words_allowed and value in words_allowed:
         is_list = any(get_origin(part) is list for part in parts)
-        return f"must be a list: write [{written(value)}]" if is_list else f"must be a number{got}; write {value} without quotes"
+        as_number = f"must be a number{got}; write {value} without quotes"
+        return f"must be a list: write [{written(value)}]" if is_list else as_number
     if words_allowed:
         return choice(words_allowed, int in parts, value)
     if "array` of length" in sentence:
@@ -393,7 +394,8 @@ def _reason(sentence: str, key: str, raw: Any, path: str, annotation: Any) -> st
         return f'must be a pair [low, high]{got}; either end may be 0 or inf'
     if lists and not path:
         one = isinstance(value, int | float | str) and not (isinstance(value, bool) or _is_number(annotation))
-        return f"must be a {'number or a ' if _is_number(annotation) else ''}list of numbers{got}{one * f': write [{written(value)}]'}"
+        write = f": write [{written(value)}]" if one else ""
+        return f"must be a {'number or a ' if _is_number(annotation) else ''}list of numbers{got}{write}"
     names = {"object": "a table", "array": "a list", "float": "a number", "int": "a whole number", "str": "text"}
     expected = re.fullmatch(r"Expected `(\w+)(?: \| null)?`.*", sentence)
     return f"must be {names.get(expected[1], 'true or false') if expected else 'something else'}{got}"

@@ -294,14 +294,15 @@ class Scene(Tables, frozen=True, weakref=True):
             raise self._in_file(error, question, changed) from None
 
     def _problem_of(self, error: ValueError, question: str, table: Table) -> Problem:
-        """An error of the function of a question as a problem of the key that it speaks of, or else of the question's table."""
+        """An error of the function of a question as a problem of the key of which it speaks, or of the question's table."""
         found = problem_of(error, "", self._bodies())
         if found.key:
             return found
         for words, key in self._without_answer().items():
             if words in found.reason:
                 return found._replace(key=key)
-        given = [each.encode_name for each in fields_of(type(table)) if getattr(table, each.name) not in (UNSET, each.default)]
+        fields = [each for each in fields_of(type(table)) if getattr(table, each.name) not in (UNSET, each.default)]
+        given = [each.encode_name for each in fields]
         for key in sorted(given, key=len, reverse=True):
             if said := re.match(rf"{key}(\[\d+\])? (?=must|needs|has|is )", found.reason):
                 return Problem(0, 0, f"ask.{question}.{key}{said[1] or ''}", found.reason[said.end() :])
@@ -318,7 +319,7 @@ class Scene(Tables, frozen=True, weakref=True):
         return found
 
     def _in_file(self, error: SceneError, question: str, changed: dict[str, Any]) -> SceneError:
-        """The error with line and column of each key that stands in the file of the scene, which need not be there any more."""
+        """The error with line and column of each key in the file of the scene; unchanged if the file is gone."""
         source = self._made().get("file")
         if source is None:
             return error
@@ -334,8 +335,7 @@ class Scene(Tables, frozen=True, weakref=True):
             elsewhere = key.startswith(of_table) and (name in changed or not asked)
             return (0, 0) if elsewhere or not key else position(key)
 
-        located = [each._replace(line=line, column=column) for each in error.problems for line, column in [in_file(each.key)]]
-        return SceneError(source, problems=located)
+        return SceneError(source, problems=[Problem(*in_file(each.key), *each[2:]) for each in error.problems])
 
     def _arguments(self, question: str, table: Table, system: System | None, numbers: Numbers) -> dict[str, Any]:
         """The arguments of a question, from its table and, of drag, from the links."""

@@ -54,9 +54,8 @@ class Numbers:
 
     def of(self, table: str) -> Numbers:
         """The numbers of a table inside this one; errors are noted together."""
-        inside = Numbers(
-            self.source, f"{self.table}.{table}".lstrip("."), gravity=self.gravity, by_mass=self.by_mass, options=self.options
-        )
+        name = f"{self.table}.{table}".lstrip(".")
+        inside = Numbers(self.source, name, gravity=self.gravity, by_mass=self.by_mass, options=self.options)
         inside.problems = self.problems
         return inside
 

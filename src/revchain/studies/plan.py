@@ -267,8 +267,10 @@ def _modes_of(scene: Scene, largest: Scene) -> tuple[int, ...]:
     else:
         there = system.size if system._kind == "chain" else system.mode_count or DEFAULT_MODES
     there = max(there - first + 1, 1)
-    most = math.inf if system._is_cord else there
-    count = int(min(ask.count, most)) if isinstance(ask.count, int) else there if ask.count == "all" else min(DEFAULT_MODES, there)
+    if isinstance(ask.count, int):
+        count = ask.count if system._is_cord else min(ask.count, there)
+    else:
+        count = there if ask.count == "all" else min(DEFAULT_MODES, there)
     return tuple(range(first, first + count))
 
 
