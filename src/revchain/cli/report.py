@@ -129,8 +129,9 @@ class Report:
             only = f"there {'is' if there == 1 else 'are'} only {there}{after}"
             console.print(Text(f"{self.asked} modes are asked for: {only}", style="yellow"))
         for note in self.sheet.notes:
-            if self.scene.order == "support first":
-                note = in_file(note, self.scene._bodies())
+            if "links[" in note:
+                bodies = self.scene._bodies()
+                note = in_file(note, bodies[::-1] if self.scene.order == "support first" else bodies)
             console.print(Text(note, style="dim"))
 
 
