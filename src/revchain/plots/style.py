@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Collection, Iterable
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -135,6 +136,12 @@ def legend_outside(ax: Axes, **more: Any) -> None:
 def plain(text: str) -> str:
     """Return `text` for matplotlib, which would read what is between two $ as mathematics."""
     return text.replace("$", r"\$")
+
+
+def save_picture(axes: Any, title: str, path: Path) -> None:
+    """Write a picture with its title."""
+    axes.set_title(plain(title), wrap=True)
+    axes.figure.savefig(path, dpi=200)
 
 
 def thinned(curve: Numbers) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
