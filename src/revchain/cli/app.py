@@ -19,7 +19,7 @@ from ..scenes.parse import is_json
 from ..scenes.scene import json_schema, load_scene
 from ..scenes.tables import SYSTEM_TABLES, fields_of
 from ..studies.study import study_schema
-from . import ExitCode, animate, ask, sweep  # noqa: F401  their commands come first
+from . import ExitCode, animate, ask, sweep, importing  # noqa: F401  their commands come first
 from .frame import STDOUT, Stop, app, epilog, guarded
 
 

@@ -56,6 +56,10 @@ USE: dict[str, tuple[str, str]] = {
         "the results (--out, or STUDY.csv in the current folder) and the picture given by --plot; RESULTS.partial "
         "while it computes, or if it is interrupted",
     ),
+    "import": (
+        'revchain import examples/models/acrobat.xml --ignore "friction range" --out acrobat.toml',
+        "the scene given by --out, or FILE.toml in the current folder; existing files only with --force",
+    ),
     "validate": ("revchain validate examples/scenes/watch_chain.toml", "none"),
     "new": ("revchain new crane.toml", "FILE, or scene.toml (study.toml with --study); existing files only with --force"),
     "schema": ("revchain schema", "none"),
@@ -63,6 +67,7 @@ USE: dict[str, tuple[str, str]] = {
 NEVER = {  # exit codes that a command does not have
     "validate": {ExitCode.TOLERANCE_NOT_MET},
     "new": {ExitCode.TOLERANCE_NOT_MET, ExitCode.SCENE_INVALID},
+    "import": {ExitCode.TOLERANCE_NOT_MET},
     "schema": {ExitCode.TOLERANCE_NOT_MET, ExitCode.SCENE_INVALID},
 }
 

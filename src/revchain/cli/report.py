@@ -55,6 +55,8 @@ class Report:
             part = getattr(self.found, name, None)
             if part is not None and (name != "other" or len(part)):
                 sheets.append(part._sheet())
+        if getattr(self.found, "_stability", False):
+            sheets.append(self.found.stability_windows()._sheet(brief=True))
         if isinstance(self.found, Response) and self.found.angular_speed.size == 1:
             sheets.append(_pins(self.found))
         tables: list[tuple[Text | None, Table | None]] = []

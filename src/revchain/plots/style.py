@@ -12,6 +12,7 @@ import numpy as np
 
 from ..systems.extras import require
 from ..systems.numbers import Numbers, integer, listed, shown, word
+from ..systems.units import SPEED_UNITS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -37,12 +38,6 @@ STYLE: dict[Any, Any] = {
 AXIS: dict[str, Any] = {"color": "0.6", "linestyle": "-.", "linewidth": 0.9, "zorder": 1}
 """The line of the axis about which a system turns."""
 
-SPEED_UNITS = {  # what is measured in each unit, and the number of the unit for 1 rad/s
-    "rad/s": ("speed", 1.0),
-    "rpm": ("speed", 30 / np.pi),
-    "Hz": ("frequency", 0.5 / np.pi),
-    "s": ("period", 2 * np.pi),
-}
 WIDEST = 8.0  # inches, of a new figure
 MINUS = "\N{MINUS SIGN}"
 MOST_PINS_AS_DOTS = 40

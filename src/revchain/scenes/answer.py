@@ -62,6 +62,7 @@ _ONLY: dict[tuple[str, str], tuple[Any, str]] = {
     ("shapes", "direction"): _HANGS,
     ("branches", "direction"): _HANGS,
     ("shapes", "hanging_only"): _HANGS,
+    ("branches", "hanging_only"): _HANGS,
     ("shapes", "max_half_waves"): (Held, "a chain held at both ends"),
 }
 

@@ -345,6 +345,12 @@ class AskBranches(Table, frozen=True):
         MaybePositive, says("Smallest conical height (m); or give max_angular_speed.")
     ] = UNSET
     direction: Annotated[Literal[1, -1], says("Direction of rotation; only flywheels depend on it.")] = 1
+    hanging_only: Annotated[
+        bool, says("Leave out branches with links above their pins (of a rig: inverted otherwise than in the scene).")
+    ] = True
+    stability: Annotated[
+        bool, says("List the windows of stability, and write the verdict at each point, however long it takes.")
+    ] = False
 
 
 class AskCampbell(Table, frozen=True):
