@@ -165,7 +165,7 @@ def test_the_commands(run, tmp_path):
     rows = list(csv.DictReader(io.StringIO((tmp_path / "response.csv").read_text())))
     assert code == 0 and "and 10 more" in out and len(rows) == 30
     assert [float(row["free_end_offset"]) for row in rows] == driven.offset[:, 0].tolist()
-    for heights, lines in (("0.1 to 20 cm in 4", 5), ("0.1 to 20 cm", 201), ("0.1; 20 cm; 3", 4), ("20 cm", 2)):
+    for heights, lines in (("10 cm to 20 cm in 4", 5), ("10 cm to 0.2", 201), ("0.1; 20 cm; 3", 4), ("20 cm", 2)):
         assert run("response", path, "--conical-height", heights, "--csv", "-")[1].count("\n") == lines
 
     path = write(tmp_path, SWING)
