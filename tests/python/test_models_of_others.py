@@ -731,3 +731,14 @@ def test_the_page_shows_the_command(run, tmp_path, monkeypatch, repository):
         line, _, shown = part.partition("\n")
         code, out, err = run(*shlex.split(line))
         assert (out or err) == shown and code == (0 if out else 3)
+
+
+def test_mujoco_writes_no_file_and_prints_nothing(tmp_path, monkeypatch, capfd):
+    """MuJoCo warns about <mimic> on a joint that floats: the warning is in the message, not in MUJOCO_LOG.TXT."""
+    monkeypatch.chdir(tmp_path)
+    text = f"<robot>{BOB}</robot>".replace("</joint>", '<mimic joint="pin"/></joint>').replace("continuous", "floating")
+    with pytest.raises(ValueError, match="pin"):
+        rc.from_urdf(text)
+    assert not list(tmp_path.iterdir())
+    said = capfd.readouterr()
+    assert not said.out and not said.err

@@ -211,6 +211,9 @@ def read_model(function: str, source: Any, root: str, ignore: Any, links: Any) -
 def _compiled(mujoco: Any, text: Text, findings: Findings) -> Any:
     """The compiled model; one error for all obstacles of the text and that of MuJoCo."""
     plain, elements = text.written()
+    said: list[str] = []
+    before = mujoco.get_mju_user_warning()
+    mujoco.set_mju_user_warning(said.append)  # otherwise MuJoCo prints warnings and writes them to a file
     try:
         spec = mujoco.MjSpec.from_string(plain)
         spec.modelfiledir = "" if text.folder is None else str(text.folder)
@@ -221,6 +224,10 @@ def _compiled(mujoco: Any, text: Text, findings: Findings) -> Any:
         place, sentence = text.message(str(error), elements, mujoco.__version__)
         findings.obstacle(place, sentence, "correct the file")
         findings.stop()
+    finally:
+        mujoco.set_mju_user_warning(before)
+        for sentence in said:
+            findings.remark(("", 0), f"MuJoCo says: {sentence.strip()}")
 
 
 def _read(function: str, source: Any, root: str, ignore: Any, links: Any) -> Chain | Rig:
