@@ -15,6 +15,7 @@ from ..systems.numbers import Floats, Whole, floats, refuse_where, shown
 from ..systems.units import unpacked
 from .base import Field, Result, UnavailableError
 from .sheet import Column, Sheet
+from .worst import WorstCase, worst_of_modes
 
 if TYPE_CHECKING:
     from ..systems.rig import Rig
@@ -218,6 +219,12 @@ class Uncertainty(Result, row="mode", title="Standard deviations"):
         column="largest",
     )
     names: Field[tuple[str, ...] | None] = Field("Names of the links; None if no names were given.")
+    worst: Field[WorstCase | None] = Field(
+        "With ``worst=True``: the proved lowest and highest speeds over the box of tolerances, else None.", joined=True
+    )
+
+    def _sheet(self, brief: bool = False) -> Sheet:
+        return super()._sheet(brief) if self.worst is None or not brief else self.worst._sheet(brief)
 
     def _most(self, row: int) -> str:
         datum, link = self.largest[row]
@@ -278,8 +285,8 @@ def rig_derivatives(rig: Rig, speeds: Any, shapes: Any, gravity: float) -> dict[
     return {name: found[name] for name in (*DATA, *OF_RIGS)}
 
 
-def uncertainty_of_modes(modes: Modes, given: dict[str, Any]) -> Uncertainty:
-    """See `Modes.uncertainty`; `given` has the arguments that were given."""
+def uncertainty_of_modes(modes: Modes, given: dict[str, Any], worst: bool = False) -> Uncertainty:
+    """See `Modes.uncertainty`; `given` has the deviations that were given."""
     caller, system, kind = "revchain.Modes.uncertainty", modes.system, modes.system._kind
     if kind == "held chain":
         raise ValueError(
@@ -289,12 +296,13 @@ def uncertainty_of_modes(modes: Modes, given: dict[str, Any]) -> Uncertainty:
     given = _checked(caller, modes, given, sensitivity.data)
     data = _data(system, modes.gravity)
     parts: dict[str, Floats] = {}
+    widths: dict[str, Floats] = {}
     for name, rates in sensitivity.value.items():
         spread = np.zeros(())
         if name in given:
             present = np.broadcast_to(data[name], rates.shape[1] if rates.ndim == 2 else 1)
             called = name if system.by_mass else name.replace("mass", "weight")
-            spread = _deviations(caller, called, given[name], present)
+            spread = widths[name] = _deviations(caller, called, given[name], present)
         each = np.nan_to_num(rates if rates.ndim == 2 else rates[:, None])
         part = each * (each @ spread) if spread.ndim == 2 else (each * spread) ** 2
         parts[name] = part if rates.ndim == 2 else part[:, 0]
@@ -317,6 +325,7 @@ def uncertainty_of_modes(modes: Modes, given: dict[str, Any]) -> Uncertainty:
         period=0.5 * relative * np.asarray(modes.period, np.float64),
         share=by_datum("part of the variance", modes, share),
         largest=tuple(places[k] for k in np.abs(table).argmax(axis=1)),
+        worst=worst_of_modes(caller, modes, widths, data) if worst else None,
     )
 
 
