@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -69,7 +70,11 @@ def plot_sweep(found: Dataset, name: str | None = None, ax: Axes | None = None) 
     'links[0].length (m)'
     """
     points = found["status"].dims
-    results = [str(key) for key, array in found.data_vars.items() if "path" not in array.attrs and key != "status"]
+    results = [
+        str(key)
+        for key, array in found.data_vars.items()
+        if "path" not in array.attrs and key != "status" and set(points) <= set(array.dims)
+    ]
     name = word("revchain.plot_sweep", "name", results[0] if name is None else name, results)
     grids = [found[key] for key in points if key in found.coords]
     if reason := _reason({str(grid.name): grid.dtype.kind for grid in grids}):
@@ -78,7 +83,8 @@ def plot_sweep(found: Dataset, name: str | None = None, ax: Axes | None = None) 
     values = result.to_numpy().astype(float).reshape(*(found.sizes[key] for key in points), -1)[..., :MAX_CURVES]
     ax = axes_or_new(ax, WIDEST, 4.8)
     if not grids:
-        return _histograms(values, result, ax)
+        ends = ("lowest_angular_speed", "highest_angular_speed") if name.endswith("angular_speed") else ()
+        return _histograms(values, result, ax, [found[end].to_numpy() for end in ends if end in found])
     ax.set_xlabel(_label(grids[0]))
     if _is_log(grids[0]):
         ax.set_xscale("log")
@@ -114,8 +120,8 @@ def _curves(grid: DataArray, values: Floats, result: DataArray, random: bool, ax
     return ax
 
 
-def _histograms(values: Floats, result: DataArray, ax: Axes) -> Axes:
-    """How each column scatters about its median."""
+def _histograms(values: Floats, result: DataArray, ax: Axes, ends: Sequence[Floats] = ()) -> Axes:
+    """How each column scatters about its median; dotted lines at its proved ends."""
     for k, label in enumerate(_curve_labels(result)):
         found = values[:, k][np.isfinite(values[:, k])]
         if found.size and (median := np.median(found)):
@@ -123,6 +129,10 @@ def _histograms(values: Floats, result: DataArray, ax: Axes) -> Axes:
             text = f"{label}: median {median:.4g}\n5 to 95 %: {low:.4g} to {high:.4g}"
             bins = min(max(found.size // 100, 10), 50)
             ax.hist(100 * (found / median - 1), bins, density=True, histtype="step", color=house(k), label=text)
+            for end in ends:
+                ax.axvline(100 * (end[k] / median - 1), color=house(k), linestyle=":")
+    if ends:
+        ax.plot([], [], ":", color="0.3", label="guaranteed worst case")
     ax.set(xlabel=f"{_label(result)}, % above its median", ylabel="fraction of points per %")
     if ax.has_data():
         legend_outside(ax)

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import heapq
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import count
@@ -26,8 +25,11 @@ ENOUGH = 0.01  # part of the distance from the nominal height that may lie betwe
 ROUNDING = 1e-11  # smallest relative gap that a search tries to close
 _SEARCHES = 4  # corners that are tried in a box
 _STEPS = 16  # heights that are tried in a box
-_PIECES = 8  # of the way from a corner, on which derivatives are enclosed
+_PIECES = 4  # of the way from a corner, on which derivatives are enclosed
 _GAMMA = 64 * EPS  # of rounding, for each coordinate and relative to the sum of the magnitudes
+
+
+Interval = tuple[Floats, Floats]
 
 
 class Extreme(NamedTuple):
@@ -114,10 +116,10 @@ class Family:
         return np.asarray(self.follows[:, self.links : 2 * self.links].any(axis=1))
 
     @cached_property
-    def _others(self) -> list[list[int]]:
+    def _others(self) -> list[NDArray[np.int64]]:
         """For each factor the others of the same data."""
         shared = (self.follows.astype(int) @ self.follows.T.astype(int)) > 0
-        return [[j for j in np.flatnonzero(row).tolist() if j != i] for i, row in enumerate(shared)]
+        return [np.flatnonzero(row & (np.arange(len(row)) != i)) for i, row in enumerate(shared)]
 
     def data(self, factors: Floats) -> Floats:
         """The data at a point of the box."""
@@ -125,11 +127,16 @@ class Family:
 
     def intervals(self, low: Floats, high: Floats, without: int = -1) -> tuple[Floats, Floats]:
         """Lowest and highest data in a box; without one of the factors."""
-        down = up = self.base
-        factors: Iterator[int] = range(len(low)) if without < 0 else self._others[without]  # type: ignore[assignment]
-        for i in factors:
-            ends = np.stack([down * low[i], down * high[i], up * low[i], up * high[i]])
-            down, up = (np.where(self.follows[i], end, old) for end, old in ((ends.min(0), down), (ends.max(0), up)))
+        factors = np.arange(len(low)) if without < 0 else self._others[without]
+        if not len(factors):
+            return self.base, self.base
+        follows = self.follows[factors]
+        sure = low[factors] >= 0
+        ends = [np.where(follows[sure], end[factors][sure, None], 1.0).prod(axis=0) for end in (low, high)]
+        down, up = np.minimum(self.base * ends[0], self.base * ends[1]), np.maximum(self.base * ends[0], self.base * ends[1])
+        for i in factors[~sure]:
+            new = _times((down, up), (low[i], high[i]))
+            down, up = np.where(self.follows[i], new[0], down), np.where(self.follows[i], new[1], up)
         return down, up
 
     def forms(self, factors: Floats) -> tuple[Floats, Floats]:
@@ -176,8 +183,10 @@ class Family:
         ])  # fmt: skip
         found = np.empty(len(factors))
         for i, follows in enumerate(self.follows):
-            per = self.base * np.where(self.follows[self._others[i]], factors[self._others[i], None], 1.0).prod(axis=0)
-            found[i] = float((np.where(follows, rates, 0.0) * np.where(follows, per, 0.0)).sum())
+            per, others = self.base[follows], self._others[i]
+            if others.size:
+                per = per * np.where(self.follows[others][:, follows], factors[others, None], 1.0).prod(axis=0)
+            found[i] = (rates[follows] * per).sum()
         return found
 
 
@@ -207,10 +216,7 @@ def solved(inertia: Floats, pull: Floats) -> tuple[Floats, Floats]:
     return found, vector
 
 
-Interval = tuple[Floats, Floats]
-
-
-def _times(one: Interval, other: Interval) -> Interval:
+def _times(one: Interval, other: Any) -> Interval:
     a, b, c, d = one[0] * other[0], one[0] * other[1], one[1] * other[0], one[1] * other[1]
     return np.minimum(np.minimum(a, b), np.minimum(c, d)), np.maximum(np.maximum(a, b), np.maximum(c, d))
 

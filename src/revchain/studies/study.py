@@ -21,6 +21,7 @@ from ..systems.numbers import file_path, integer, text
 from .axes import LAWS, MAX_POINTS, Axis, Samples, Vary, axis_of, with_value
 from .batch import links_of
 from .plan import OUTPUTS, Plan, answers, asked_of, columns_of, outputs_of
+from .scatter import SPEEDS, Scatter, why_no_worst
 
 __all__ = ["Study", "load_study"]
 
@@ -47,6 +48,8 @@ class Study(Table, frozen=True):
         equilibria of a governor.
     max_shapes : int
         Largest number of stored steady shapes, or equilibria of a governor, of each point.
+    scatter : Scatter, optional
+        With ``worst=True``: also find the proved lowest and highest speeds over the intervals of uniform random numbers.
     error_bounds : bool, optional
         Whether to store error bounds. If left out, they are stored, except for plain chains of up to 100 links: those are
         computed in batches (`revchain.conical_heights`, accurate to 5 ulp) without bounds.
@@ -85,6 +88,7 @@ class Study(Table, frozen=True):
     error_bounds: Annotated[
         bool | UnsetType, says("Whether to store error bounds; if left out, batches have none.")
     ] = UNSET
+    scatter: Annotated[Scatter, says("What to find for random numbers beside the results of each point.")] = Scatter()
 
     @classmethod
     def from_dict(cls, data: dict[str, Any], source: str = "study", folder: str | os.PathLike[str] = ".") -> Study:
@@ -233,10 +237,13 @@ class Study(Table, frozen=True):
         outputs = outputs_of(scene, _largest(base, axes, source), find, self.max_shapes, bounds)
         columns = {"point", "status", "sample", *(output.along for output in OUTPUTS.values()), *outputs}
         columns.update(*(columns_of(*output) for output in outputs.items()))
+        columns.update(SPEEDS * self.scatter.worst)
         for axis in axes:
             if axis.name in columns:
                 numbers.of(joined("vary", axis.key)).refuse("name", f"{axis.name} is the name of a result")
         plan = Plan(base, axes, shape, self.seed, find, outputs, links)
+        if self.scatter.worst and not numbers.problems and (reason := why_no_worst(plan)):
+            numbers.refuse("scatter.worst", reason)
         if plan.points > MAX_POINTS:
             numbers.refuse("vary", f"makes {plan.points:,} points; at most {MAX_POINTS:,}")
         numbers.done()

@@ -23,6 +23,7 @@ from ..systems.extras import require
 from ..systems.numbers import count as checked_count
 from ..systems.numbers import file_path, shown
 from .plan import OUTPUTS, STATUS, Plan, Rows, Values
+from .scatter import worst_cases
 from .study import Study, load_study
 
 if TYPE_CHECKING:
@@ -287,6 +288,8 @@ def dataset(study: Study, plan: Plan, values: Values, rows: Rows) -> Dataset:
         array = rows[name].reshape(*plan.shape, *[len(labels)] * len(along))
         data[name] = [*points, *along], array, {"units": unit} if unit else {}
         coordinates |= {dimension: (dimension, np.array(labels)) for dimension in along}
+    if study.scatter.worst:
+        data |= worst_cases(plan, values)
     flags = {"flag_values": np.arange(1, 4, dtype=np.int8), "flag_meanings": " ".join(STATUS)}
     data["status"] = points, rows["status"].reshape(plan.shape), flags
     about = {"title": study.title, "study": json.dumps(study.to_dict())}
