@@ -41,7 +41,7 @@ class Report:
         self.system = scene.system().describe()
         self.found = found
         self.units = units
-        self.sheet: Sheet = found._sheet(brief=True)
+        self.sheet: Sheet = found._printed()
 
     @cached_property
     def tables(self) -> list[tuple[Text | None, Table | None]]:

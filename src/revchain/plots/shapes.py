@@ -40,26 +40,26 @@ CLOSEST = 0.03  # of the width, between births whose speeds are written out
 
 
 @described(bound=True)
-def plot_shape(shape: SteadyShape, ax: Axes | None = None, *, speed: str = "rad/s") -> Axes:
+def plot_shape(shape: SteadyShape, ax: Axes | None = None, *, speed: str | None = None) -> Axes:
     """Draw the shape, true to scale.
 
     >>> ax = rc.steady_shapes(rc.Chain.uniform_plummets(3, length=1.0), conical_height=0.05)[0].plot()
     >>> ax.get_xlabel()
     'distance from axis (m)'
     """
-    at = SpeedUnit("revchain.SteadyShape.plot", speed).text(shape.angular_speed)
+    at = SpeedUnit("revchain.SteadyShape.plot", speed, shape).text(shape.angular_speed)
     return _draw_shapes([shape], ax, f"\n{at}")
 
 
 @described(bound=True)
-def plot_shapes(shapes: SteadyShapes, ax: Axes | None = None, *, speed: str = "rad/s") -> Axes:
+def plot_shapes(shapes: SteadyShapes, ax: Axes | None = None, *, speed: str | None = None) -> Axes:
     """Draw all shapes in one picture, true to scale, coloured by half waves.
 
     >>> ax = rc.steady_shapes(rc.Chain.uniform_plummets(3, length=1.0), conical_height=0.02).plot(speed="rpm")
     >>> ax.get_title(), ax.get_legend().get_title().get_text()
     ('5 hanging shapes, proved complete', 'at 211.5 rpm')
     """
-    unit = SpeedUnit("revchain.SteadyShapes.plot", speed)
+    unit = SpeedUnit("revchain.SteadyShapes.plot", speed, shapes)
     at = shapes.angular_speed if shapes else None
     ax = _draw_shapes(shapes, ax, title=None if at is None else f"at {unit.text(at)}")
     ax.set_title(shapes._how_many())
@@ -172,7 +172,7 @@ def words_of(quantity: str, by_mass: bool) -> str:
 
 
 @described(bound=True)
-def plot_branch(branch: Branch, ax: Axes | None = None, *, quantity: str | None = None, speed: str = "rad/s") -> Axes:
+def plot_branch(branch: Branch, ax: Axes | None = None, *, quantity: str | None = None, speed: str | None = None) -> Axes:
     """Draw a quantity of the branch against the speed; folds are marked.
 
     quantity: Quantity to draw: ``lowest_inclination`` (in degrees; of hanging systems unless given),
@@ -184,12 +184,12 @@ def plot_branch(branch: Branch, ax: Axes | None = None, *, quantity: str | None 
     >>> ax.get_ylabel()
     'inclination of the lowest link (degrees)'
     """
-    return _draw_branches([branch], ax, quantity, speed, "revchain.Branch.plot")
+    return _draw_branches([branch], ax, quantity, speed, "revchain.Branch.plot", branch)
 
 
 @described(bound=True)
 def plot_branches(
-    branches: Branches, ax: Axes | None = None, *, quantity: str | None = None, speed: str = "rad/s"
+    branches: Branches, ax: Axes | None = None, *, quantity: str | None = None, speed: str | None = None
 ) -> Axes:
     """Draw the bifurcation diagram: a quantity of each branch against the speed.
 
@@ -202,7 +202,7 @@ def plot_branches(
     >>> ax.get_xlabel()
     'speed (rad/s)'
     """
-    ax = _draw_branches(branches, ax, quantity, speed, "revchain.Branches.plot")
+    ax = _draw_branches(branches, ax, quantity, speed, "revchain.Branches.plot", branches)
     if not branches:
         ax.set_title("no shape at or above this conical height")
     elif hasattr(branches, "complete"):
@@ -210,9 +210,11 @@ def plot_branches(
     return ax
 
 
-def _draw_branches(branches: Sequence[Branch], ax: Axes | None, quantity: str | None, speed: str, caller: str) -> Axes:
+def _draw_branches(
+    branches: Sequence[Branch], ax: Axes | None, quantity: str | None, speed: str | None, caller: str, given: Branch | Branches
+) -> Axes:
     """Draw a curve for each branch, and mark births and folds."""
-    unit = SpeedUnit(caller, speed)
+    unit = SpeedUnit(caller, speed, given)
     available = [name for name in QUANTITIES if not len(branches) or hasattr(branches[0], name)]
     if quantity is None:
         quantity = "largest_offset" if len(branches) and "tip_radius" not in available else "lowest_inclination"

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..systems.extras import require
 from ..systems.numbers import Numbers, integer, listed, shown, word
+from ..systems.units import SPEEDS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -36,12 +37,6 @@ STYLE: dict[Any, Any] = {
 AXIS: dict[str, Any] = {"color": "0.6", "linestyle": "-.", "linewidth": 0.9, "zorder": 1}
 """The line of the axis about which a system turns."""
 
-SPEED_UNITS = {  # what is measured in each unit, and the number of the unit for 1 rad/s
-    "rad/s": ("speed", 1.0),
-    "rpm": ("speed", 30 / np.pi),
-    "Hz": ("frequency", 0.5 / np.pi),
-    "s": ("period", 2 * np.pi),
-}
 WIDEST = 8.0  # inches, of a new figure
 MINUS = "\N{MINUS SIGN}"
 MOST_PINS_AS_DOTS = 40
@@ -54,11 +49,15 @@ def house(number: int) -> str:
 
 
 class SpeedUnit:
-    """The unit in which a picture shows speeds, which are given to it in rad/s."""
+    """The unit in which a picture shows speeds, which are given to it in rad/s.
 
-    def __init__(self, caller: str, unit: str) -> None:
-        self.unit = word(caller, "speed", unit, SPEED_UNITS)
-        self.quantity, self.per_radian = SPEED_UNITS[unit]
+    If the caller chooses none, it is that in which the question was asked, or the usual one.
+    """
+
+    def __init__(self, caller: str, unit: str | None, found: Any = None, usual: str = "rad/s") -> None:
+        chosen = getattr(found, "_speed_unit", None) or usual if unit is None else unit
+        self.unit = word(caller, "speed", chosen, SPEEDS)
+        self.quantity, self.per_radian = SPEEDS[chosen]
 
     @property
     def label(self) -> str:

@@ -13,6 +13,7 @@ from ..systems.held import Held
 from ..systems.numbers import STANDARD_GRAVITY, count, height_of, limit, one_positive
 from ..systems.rig import Rig
 from ..systems.system import System
+from .asked import in_unit_of
 from .refuse import no_system
 from .shapes import compiled_system, require_span, rotation
 
@@ -20,6 +21,7 @@ LISTS = 16
 """Number of speeds at which `branches` lists all shapes."""
 
 
+@in_unit_of("max_angular_speed")
 def branch(
     system: Chain | Rig | Cord | Held,
     mode: int,
@@ -106,6 +108,7 @@ def branch(
     return branch_made(found, system, g, turns)
 
 
+@in_unit_of("max_angular_speed")
 def branches(
     system: Chain | Rig | Cord | Held,
     *,

@@ -11,6 +11,7 @@ from ..systems.chain import Chain
 from ..systems.drag import Drag
 from ..systems.numbers import STANDARD_GRAVITY, count, floats, one_positive, real, shown
 from ..systems.rig import Rig
+from .asked import in_unit_of
 from .refuse import refuse_other
 
 _CALLER = "revchain.drag_shape"
@@ -18,6 +19,7 @@ _NOTHING = np.zeros(1)
 _MOST_WAVES = 2**31 - 1  # what the compiled module can hold
 
 
+@in_unit_of("angular_speed")
 def drag_shape(
     system: Rig,
     drag: Drag,

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from msgspec import UNSET
+from msgspec import UNSET, to_builtins
 
 from .. import _core
 from ..closed_forms.governor import SleeveGovernor
@@ -24,6 +24,7 @@ from ..systems.chain import Chain
 from ..systems.held import Held
 from ..systems.rig import Rig
 from ..systems.support_motion import KINDS, SupportMotion
+from ..systems.units import speed_unit
 from .parse import choice, written
 from .system import Given, Numbers, System, Whirling
 from .tables import DEFAULT_MODES, AskCampbell, AskDrag, Spread, Table, fields_of, number_fields
@@ -169,6 +170,8 @@ def _swing(table: Table, given: Given, system: Whirling | None, numbers: Numbers
 def _campbell(table: AskCampbell, given: Given, system: Whirling | None, numbers: Numbers) -> None:
     """Check that there are ascending speeds."""
     speeds = given.get("angular_speed")
+    if np.size(speeds) > 1 and speed_unit(to_builtins(table)) == "s":  # ascending periods are descending speeds
+        speeds = given["angular_speed"] = speeds[::-1]
     if speeds is None:
         numbers.refuse("angular_speed", 'is missing: write {from = "1 rpm", to = "20 rpm", steps = 39}')
     elif np.size(speeds) < 2 or not (np.isnan(speeds).any() or (np.diff(speeds) > 0).all()):

@@ -11,7 +11,9 @@ import numpy as np
 from msgspec import UNSET, UnsetType, json, to_builtins
 
 from .. import _core
+from ..results.base import asked_in
 from ..systems.numbers import text
+from ..systems.units import speed_unit
 from . import parse
 from .answer import SPEEDS, answered, arguments
 from .error import Problem, SceneError
@@ -281,8 +283,10 @@ class Scene(Tables, frozen=True, weakref=True):
             numbers = Numbers("scene")
             given = self._arguments(question, self._table(question, changed), system, numbers)
             numbers.done()
+        table = self._table(question, changed)
+        unit = speed_unit(to_builtins(table)) if isinstance(self.speed, UnsetType) else self.speed
         try:
-            return answered(question, system, given, gravity, progress)
+            return asked_in(unit, answered(question, system, given, gravity, progress))
         except ValueError as error:
             raise SceneError("scene", problems=[problem_of(error, "", self._bodies())]) from None
 
