@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
 from ..results.base import Field, Listed, Result
-from ..results.sheet import Column, Sheet
+from ..results.sheet import Column, Sheet, speed_text
 from ..systems.numbers import STANDARD_GRAVITY, Floats, floats, numbers, one_positive, real
 from .solved import Solved
 from .table import FloatOrArray, described

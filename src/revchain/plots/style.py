@@ -37,6 +37,7 @@ STYLE: dict[Any, Any] = {
 AXIS: dict[str, Any] = {"color": "0.6", "linestyle": "-.", "linewidth": 0.9, "zorder": 1}
 """The line of the axis about which a system turns."""
 
+SPEED_UNITS = SPEEDS
 WIDEST = 8.0  # inches, of a new figure
 MINUS = "\N{MINUS SIGN}"
 MOST_PINS_AS_DOTS = 40

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..systems.numbers import Floats, word
-from .style import WIDEST, axes_or_new, house, legend_outside, plain
+from .style import WIDEST, SpeedUnit, axes_or_new, house, legend_outside, plain
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -35,7 +35,7 @@ def _reason(kinds: dict[str, str]) -> str:
     return f"draws numbers, not words, and {words[0]} is one" if words else ""
 
 
-def plot_sweep(found: Dataset, name: str | None = None, ax: Axes | None = None) -> Axes:
+def plot_sweep(found: Dataset, name: str | None = None, ax: Axes | None = None, *, speed: str | None = None) -> Axes:
     """Draw a result of `revchain.sweep` against the varied numbers.
 
     One grid gives curves, two grids give a map of the first mode, and random numbers give histograms with percentiles.
@@ -49,6 +49,8 @@ def plot_sweep(found: Dataset, name: str | None = None, ax: Axes | None = None) 
         Name of the result; the first one if left out.
     ax : matplotlib.axes.Axes, optional
         Axes to draw in; a new figure if left out.
+    speed : {"rad/s", "rpm", "Hz", "s"}, optional
+        Unit of speeds on the axes; ``"s"`` draws periods. If left out, that of the scene or of its speeds, or rad/s.
 
     Returns
     -------
@@ -69,6 +71,7 @@ def plot_sweep(found: Dataset, name: str | None = None, ax: Axes | None = None) 
     >>> plot_sweep(found).get_xlabel()
     'links[0].length (m)'
     """
+    found = in_speed_unit(found, found.attrs.get("speed_unit") if speed is None else SpeedUnit("revchain.plot_sweep", speed).unit)
     points = found["status"].dims
     results = [
         str(key)
@@ -98,6 +101,20 @@ def plot_sweep(found: Dataset, name: str | None = None, ax: Axes | None = None) 
     first = "" if len(result.dims) == len(points) else f", {_curve_labels(result)[0]}"
     ax.figure.colorbar(drawn, ax=ax, label=f"{'median of ' if random else ''}{_label(result)}{first}")
     return ax
+
+
+def in_speed_unit(found: Dataset, unit: str | None) -> Dataset:
+    """The results with their speeds in a unit of `units.SPEEDS`; unchanged for None."""
+    if unit in (None, "rad/s"):
+        return found
+    speeds = [key for key, array in found.variables.items() if array.attrs.get("units") == "rad/s"]
+    said, changed = SpeedUnit("revchain.plot_sweep", unit), {}
+    for key in speeds:
+        array = found[key]
+        changed[key] = array.copy(data=said.of(array.to_numpy())).assign_attrs(units=unit)
+    return found.assign({key: array for key, array in changed.items() if key not in found.coords}).assign_coords(
+        {key: (array.dims, array.to_numpy(), array.attrs) for key, array in changed.items() if key in found.coords}
+    )
 
 
 def _curves(grid: DataArray, values: Floats, result: DataArray, random: bool, ax: Axes) -> Axes:
@@ -151,6 +168,8 @@ def _curve_labels(result: DataArray) -> list[str]:
 def _label(array: DataArray) -> str:
     """The name and the unit of a result or of a varied number."""
     name = plain(str(array.name)) if "path" in array.attrs else str(array.name).replace("_", " ")
+    if array.attrs.get("units") == "s":
+        name = name.replace("angular speed", "period").replace("angular_speed", "period")
     return name + (f" ({array.attrs['units']})" if "units" in array.attrs else "")
 
 

@@ -21,7 +21,7 @@ from ..systems.held import Held
 from ..systems.numbers import STANDARD_GRAVITY, Floats, Whole, integer, one_positive, real, shown
 from ..systems.rig import Rig
 from ..systems.system import System
-from ..systems.units import has_units, in_si, unpacked
+from ..systems.units import has_units, in_si, unpacked, with_tolerance
 from .modes import straight
 from .refuse import no_system
 from .speeds import Speeds, speeds
@@ -50,7 +50,8 @@ def fit(
     measured : dict
         Measured speed of each mode by its number, from 1 for the slowest; for a rig with flywheels -1 is the slowest
         backward mode. A speed is a number in rad/s, or text such as ``"0.5 Hz"``, ``"30 rpm"`` or a period ``"10.9 s"``. A
-        pair is a speed and its standard uncertainty, in the same unit or relative such as ``"1 %"``:
+        pair is a speed and its standard uncertainty, in the same unit or relative such as ``"1 %"``, also as one text
+        ``"10.9 s +- 0.1 s"``:
         ``{1: ("10.9 s", "0.1 s"), 2: (3.8, 0.05)}``. Give uncertainties for all speeds or for none. Without them all speeds
         have equal relative weight, and their uncertainty is estimated from the residuals.
     vary : str, list of str or dict
@@ -360,6 +361,8 @@ def _measurements(measured: Any) -> tuple[Whole, Floats, Floats | None]:
 def _measurement(number: int, value: Any) -> tuple[float, float | None]:
     """A speed and its uncertainty, both positive, in rad/s."""
     caller, spread = f"{_CALLER}: measured[{number}]", None
+    if isinstance(value, str) and (parts := with_tolerance(value)) is not None and parts[0]:
+        value = parts  # "2.01 s +- 0.02 s"
     if isinstance(value, np.ndarray):
         value = value.tolist()
     if isinstance(value, list | tuple):

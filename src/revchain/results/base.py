@@ -397,9 +397,10 @@ Answered = TypeVar("Answered", bound=Result)
 
 def asked_in(unit: str | None, found: Answered) -> Answered:
     """Return a result that prints and draws its speeds in the unit of the question; in the usual ones for None."""
-    if unit is not None:
+    if unit is not None and isinstance(found, Result):
         found.__dict__["_speed_unit"] = unit
-        for item in found if isinstance(found, Listed) else ():
+        items: Any = found if isinstance(found, Listed) else ()
+        for item in items:
             item.__dict__["_speed_unit"] = unit
     return found
 

@@ -259,8 +259,9 @@ class _Parts(NamedTuple):
 
 def _parts(family: Family, low: Floats, high: Floats) -> _Parts:
     down, up = family.intervals(low, high)
-    links = [(one, other) for one, other in zip(down[:-2].reshape(4, -1), up[:-2].reshape(4, -1), strict=True)]
-    return _Parts(*links, (down[-2:-1], up[-2:-1]), (down[-1:], up[-1:]), _over(links[2], links[1]))
+    weight, length, centroid, radius = zip(down[:-2].reshape(4, -1), up[:-2].reshape(4, -1), strict=True)
+    support = (down[-2:-1], up[-2:-1]), (down[-1:], up[-1:])
+    return _Parts(weight, length, centroid, radius, *support, _over(centroid, length))
 
 
 def _pull(family: Family, parts: _Parts) -> Interval:
@@ -393,7 +394,7 @@ class _Box:
         """
         family, active, links = self.family, self.active, self.family.links
         follows, turned = family.follows[active], family.inverted[active, None]
-        per = np.array([family.intervals(box_low, box_high, without=i) for i in active])
+        per = np.array([family.intervals(box_low, box_high, without=int(i)) for i in active])
         data = np.where(follows, per[:, 0], 0.0), np.where(follows, per[:, 1], 0.0)
         weight, length, centroid, radius, _, _, part = _parts(family, box_low, box_high)
         long = data[0][:, links : 2 * links], data[1][:, links : 2 * links]
@@ -491,8 +492,8 @@ def extreme(family: Family, row: int, side: int, budget: int) -> Extreme:
         heapq.heappop(boxes)
         middle = (worst.low[worst.split] + worst.high[worst.split]) / 2
         here = np.arange(len(low)) == worst.split
-        for ends in ((worst.low, np.where(here, middle, worst.high)), (np.where(here, middle, worst.low), worst.high)):
-            part = _Box(family, *ends, row, side)
+        for down, up in ((worst.low, np.where(here, middle, worst.high)), (np.where(here, middle, worst.low), worst.high)):
+            part = _Box(family, down, up, row, side)
             if side * (part.height - best) > 0:
                 best, factors = part.height, part.factors
             bound = part.bound if side * (part.bound - worst.bound) < 0 else worst.bound

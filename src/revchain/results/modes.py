@@ -475,7 +475,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         ----------
         mass, weight, length, centroid, radius_of_gyration, length_in_proportion : array_like, optional
             Standard deviation of the quantity of the links: a number for all links, or shape (N,). Shape (N, N) is a
-            covariance of the links, with variances on its diagonal. Text such as ``"5 %"`` is relative to each link's datum;
+            covariance of the links, with variances on its diagonal. Text such as ``"5 %"`` is relative to each link's datum,
+            and ``"+- 2 cm"`` or ``"38 m +- 2 cm"`` is the number after the sign (``+-``, ``+/-`` or ``±``);
             ``["5 %", 0]`` is for the lowest of two links only. A quantity that is left out is exact. Deviations of different
             quantities are independent, and so are those of different links without a covariance. For a cord: one number for
             the mass or the length of the whole cord.

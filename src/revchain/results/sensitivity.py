@@ -12,7 +12,7 @@ import numpy as np
 from .. import _core
 from ..systems.chain import like
 from ..systems.numbers import Floats, Whole, floats, refuse_where, shown
-from ..systems.units import unpacked
+from ..systems.units import unpacked, with_tolerance
 from .base import Field, Result, UnavailableError
 from .sheet import Column, Sheet
 from .worst import WorstCase, worst_of_modes
@@ -419,10 +419,30 @@ def _deviations(caller: str, name: str, given: Any, data: Floats) -> Floats:
 def _parts_of_data(caller: str, value: Any, data: Floats) -> list[Any]:
     """Deviations; those given in percent are multiplied by the data."""
     of = [data[k] if k < len(data) else 1.0 for k in range(len(value))]
+    spreads = [_spread(caller, one, float(datum)) for one, datum in zip(value, of, strict=True)]
     return [
         _part(caller, one) * float(datum) if isinstance(one, str) and one.strip().endswith("%") else one
-        for one, datum in zip(value, of, strict=True)
+        for one, datum in zip(spreads, of, strict=True)
     ]
+
+
+def _spread(caller: str, given: Any, datum: float) -> Any:
+    """What stands behind +- in text such as "38 m +- 0.5 m", whose first number must be the datum; anything else unchanged."""
+    parts = with_tolerance(given) if isinstance(given, str) else None
+    if parts is None:
+        return given
+    value, spread = parts
+    if value and abs(float(floats(*_named(caller), value)) - datum) > 1e-6 * datum:
+        name = _named(caller)[1]
+        raise ValueError(
+            f'{caller} of the system is {datum:.9g}, not "{value}": write "+- {spread}", or give the system that {name}'
+        )
+    return spread
+
+
+def _named(caller: str) -> tuple[str, str]:
+    function, _, name = caller.rpartition(": ")
+    return function, name
 
 
 def _part(caller: str, text: str) -> float:

@@ -134,7 +134,7 @@ def in_speed_unit(sheet: Sheet, unit: str | None) -> Sheet:
             with np.errstate(divide="ignore"):
                 shown = per_radian / values if unit == "s" else values * per_radian
             speeds = values if speeds is None else speeds
-            words = quantity if words == "speed" else words if quantity == "speed" else f"{words}, as {quantity}"
+            words = quantity if words == "speed" else words if quantity == "speed" or quantity in words else f"{words}, as {quantity}"
             column = column._replace(heading=f"{words} ({unit})", shown=shown)
         elif heading and speeds is not None and (column.name == "rpm" or (column.unit == unit == "s" and _is_period(column, speeds))):
             column = column._replace(heading="")

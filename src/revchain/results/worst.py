@@ -144,8 +144,8 @@ def data_of(system: Any, gravity: float) -> Floats:
     """The data of a chain or rig, as a `Family` has them."""
     chain = system._base
     size, rig = chain.size, system._kind == "rig"
-    support = system.support if rig else None
-    yields = support is not None and support._yields
+    support: Any = system.support if rig else None
+    yields = rig and support._yields
     return np.concatenate([
         *(np.broadcast_to(column, size) for column in (
             chain._compiled.weight, chain.length, chain.centroid, chain.radius_of_gyration,

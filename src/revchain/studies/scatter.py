@@ -15,7 +15,7 @@ from ..results.worst import WorstCase, data_of, extremes, refuse_unbounded, wors
 from ..scenes.scene import Scene
 from ..scenes.tables import Table, says
 from ..systems.numbers import Floats
-from .plan import Plan, Values
+from .plan import WAYS, Plan, Values, in_way
 
 SPEEDS = ("lowest_angular_speed", "lowest_reached", "highest_reached", "highest_angular_speed")
 
@@ -105,4 +105,12 @@ def worst_cases(plan: Plan, values: Values) -> dict[str, tuple[list[str], Floats
         found: WorstCase = worst_of(extremes(family, modes.number), modes.number, gravity, lambda _: {})
         for speed in SPEEDS:
             table[speed][row, : len(modes)] = getattr(found, speed)[: len(labels)]
-    return {speed: ([*grids, "mode"], each.reshape(shape), {"units": "rad/s"}) for speed, each in table.items()}
+    stored = {speed: ([*grids, "mode"], each.reshape(shape), {"units": "rad/s"}) for speed, each in table.items()}
+    if not plan.ways:
+        return stored
+    said = {}
+    for way, unit in WAYS.items():
+        for end, speed in zip(("lowest", "highest"), (SPEEDS[0], SPEEDS[-1])[:: -1 if unit == "s" else 1], strict=True):
+            if way in plan.ways:
+                said[f"{end}_{way}"] = [*grids, "mode"], in_way(unit, stored[speed][1]), {"units": unit}
+    return said

@@ -164,6 +164,9 @@ def in_si(caller: str, name: str, value: Any, quantity: str = "") -> Any:
 @lru_cache(maxsize=4096)  # pint takes half a millisecond, and files repeat their numbers
 def si_value(text: str, quantity: str) -> float:
     """The number of `text` in SI units; a ValueError says what is wrong with the text."""
+    if len(text) <= 100 and re.match(PATTERN, text) is None and (parts := with_tolerance(text)) is not None and parts[0]:
+        where = "in uncertainty, in fit, or as uniform or normal in a study"
+        raise ValueError(f'must be a number without a tolerance, got "{text}"; write "{parts[0]}" here, and the tolerance {where}')
     if len(text) > 100 or re.match(PATTERN, text) is None:
         point = re.sub(r"(?<=\d),(?=\d)", ".", text, count=1)
         number = re.fullmatch(_NUMBER, point.strip())
