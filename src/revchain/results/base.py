@@ -401,7 +401,8 @@ def asked_in(unit: str | None, found: Answered) -> Answered:
         found.__dict__["_speed_unit"] = unit
         items: Any = found if isinstance(found, Listed) else ()
         for item in items:
-            item.__dict__["_speed_unit"] = unit
+            if isinstance(item, Result):
+                item.__dict__["_speed_unit"] = unit
     return found
 
 
