@@ -235,3 +235,78 @@ def test_the_forms_are_those_of_the_library():
         value, _ = family.modes(none)
         assert value[family.rigid :][: len(found)] == pytest.approx(found.conical_height, rel=1e-9)
         assert math.isinf(value[0]) == bool(found.rigid)
+
+
+SCATTER = {
+    "scene": {"links": [{"mass": 2500, "length": 6}, {"mass": 400, "length": 24, "kind": "rod"}]},
+    "vary": {
+        "links[0].mass": {"uniform": "2500 kg +- 10 %"},
+        "links[1].length": {"log_uniform": ["23 m", "25 m"]},
+        "gravity": {"values": [1.62, 9.81]},
+    },
+    "samples": 200,
+    "scatter": {"worst": True},
+}
+
+
+def changed(**more):
+    return {key: value for key, value in {**SCATTER, **more}.items() if value is not None}
+
+
+def test_a_study_finds_the_extremes_of_its_intervals():
+    found = rc.sweep(changed())
+    speed = found["angular_speed"]
+    low, high = found["lowest_angular_speed"], found["highest_angular_speed"]
+    assert low.dims == ("gravity", "mode") and low.attrs["units"] == "rad/s"
+    assert ((speed >= low) & (speed <= high)).all()
+    assert (found["lowest_reached"] >= low).all() and (found["highest_reached"] <= high).all()
+    assert ((speed.max("sample") - speed.min("sample")) / (high - low)).min() > 0.8
+    plain = rc.sweep(changed(scatter=None))
+    assert set(found) - set(plain) == {"lowest_angular_speed", "lowest_reached", "highest_reached", "highest_angular_speed"}
+    for k, mass in enumerate((2250, 2750)):  # the load alone moves the second mode upwards
+        links = [{"mass": mass, "length": 6}, {"mass": 400, "length": 25 if k == 0 else 23, "kind": "rod"}]
+        end = rc.Scene.from_dict({"links": links, "gravity": 9.81}).modes().angular_speed[1]
+        assert (low if k == 0 else high).sel(gravity=9.81, mode=2).item() == pytest.approx(end, rel=1e-9)
+
+
+def test_random_gravity_and_rigs_and_other_units():
+    vary = {"gravity": {"uniform": [9.78, 9.83]}, "links[0].mass": {"uniform": [2400, 2600]}}
+    found = rc.sweep(changed(vary=vary, find=["period"]))
+    assert ((found["period"] >= found["lowest_period"]) & (found["period"] <= found["highest_period"])).all()
+    assert found["lowest_period"].attrs["units"] == "s" and "lowest_angular_speed" not in found
+    rig = {**SCATTER["scene"], "support": {"stiffness": "200 kN/m", "mass": 300}}
+    vary = {"support.stiffness": {"uniform": ["100 kN/m", "300 kN/m"]}, "support.mass": {"uniform": [100, 500]}}
+    found = rc.sweep(changed(scene=rig, vary=vary))
+    speed = found["forward_angular_speed"]
+    inside = (speed >= found["lowest_angular_speed"]) & (speed <= found["highest_angular_speed"])
+    assert (inside | speed.isnull()).all() and inside.sel(mode=3).all()
+
+
+@pytest.mark.parametrize(
+    ("more", "message"),
+    [
+        ({"vary": {"links[0].mass": {"normal": [2500, "5 %"]}}}, "needs intervals, and links.0..mass is normal: write uniform"),
+        ({"vary": {"gravity": {"values": [1, 2]}}, "samples": None}, "is for random numbers, and none are varied"),
+        ({"scene": {**SCATTER["scene"], "ask": {"shapes": {"angular_speed": 2}}}}, 'is for modes alone: write find = ."modes".'),
+        ({"scene": {"cord": {"length": 1, "mass": 1}}, "vary": {"cord.length": {"uniform": [1, 2]}}}, "cut it into links"),
+        ({"scatter": {"worst": 1}}, "worst: must be true or false, got 1"),
+    ],
+)
+def test_studies_without_a_worst_case_are_refused(more, message):
+    with pytest.raises(rc.SceneError, match=rf"scatter\.?.*{message}"):
+        rc.Study.from_dict(changed(**more))
+
+
+def test_a_number_to_which_no_datum_is_proportional_is_refused():
+    links = [{"mass": 2500, "length": 6, "tip_mass": 10}, {"mass": 400, "length": 24, "kind": "rod"}]
+    with pytest.raises(rc.SceneError, match=r"scatter.worst: needs numbers .* proportional, and links\[0\].mass is not"):
+        rc.Study.from_dict(changed(scene={"links": links}))
+
+
+def test_the_histogram_shows_the_extremes():
+    from revchain.plots.sweep import plot_sweep
+
+    vary = {"links[0].mass": {"uniform": "2500 kg +- 10 %"}}
+    ax = plot_sweep(rc.sweep(changed(vary=vary)))
+    dotted = [line for line in ax.lines if line.get_linestyle() == ":" and len(line.get_xdata())]
+    assert len(dotted) == 4 and "guaranteed worst case" in ax.get_legend_handles_labels()[1]

@@ -84,7 +84,7 @@ def campbell(
     """
     refuse_other(_CALLER, system, ("chain", "rig"), {"cord": "use its chain: cord.chain(100)", "held": "use steady_shapes and stability"})
     speeds = np.array(positive(_CALLER, "angular_speed", angular_speed))
-    if has_units(angular_speed) and speed_unit(angular_speed) == "s":  # ascending periods are descending speeds
+    if has_units(angular_speed) and speed_unit(angular_speed) == "s" and (np.diff(speeds) < 0).all():  # ascending periods are descending speeds
         speeds = speeds[::-1]
     if speeds.ndim != 1 or speeds.size < 2 or (np.diff(speeds) <= 0).any():
         raise ValueError(f"{_CALLER}: angular_speed must be a list of at least two ascending speeds, got {shown(angular_speed)}")

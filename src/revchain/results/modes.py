@@ -532,7 +532,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
 
         >>> worst = rc.modes(rig, 1).uncertainty(stiffness="10 %", worst=True).worst
         >>> worst.lowest_angular_speed.round(4), worst.highest_angular_speed.round(4)
-        (array([2.6818]), array([2.7491]))
+        (array([2.6821]), array([2.7496]))
         """
         from .sensitivity import uncertainty_of_modes
 

@@ -170,7 +170,7 @@ def _swing(table: Table, given: Given, system: Whirling | None, numbers: Numbers
 def _campbell(table: AskCampbell, given: Given, system: Whirling | None, numbers: Numbers) -> None:
     """Check that there are ascending speeds."""
     speeds: Any = given.get("angular_speed")
-    if np.size(speeds) > 1 and speed_unit(to_builtins(table)) == "s":  # ascending periods are descending speeds
+    if np.size(speeds) > 1 and speed_unit(to_builtins(table)) == "s" and (np.diff(speeds) < 0).all():  # ascending periods are descending speeds
         speeds = given["angular_speed"] = speeds[::-1]
     if speeds is None:
         numbers.refuse("angular_speed", 'is missing: write {from = "1 rpm", to = "20 rpm", steps = 39}')

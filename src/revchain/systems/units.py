@@ -97,9 +97,9 @@ def _way(unit: str) -> str | None:
         return "s"
     if not given.is_compatible_with("rad/s"):
         return None
-    names = str(given.units)
-    turns = any(word in names for word in ("turn", "rev", "hertz", "rps"))
-    return "rpm" if turns and "minute" in names else "Hz" if turns else "rad/s" if names == "radian / second" else None
+    names = str(given.units).lower()
+    turns = any(word in names for word in ("turn", "rev", "hertz", "rps", "rpm"))
+    return "rpm" if turns and ("minute" in names or names == "rpm") else "Hz" if turns else "rad/s" if names == "radian / second" else None
 
 
 def with_tolerance(text: str) -> tuple[str, str] | None:
