@@ -381,8 +381,11 @@ class _Box:
         self.by_inertia = step[:, None, None] * (basis.T @ forms @ basis)
         self.by_pull = step[:, None, None] * np.einsum("pa,ip,pb->iab", basis, gravity[0], basis)
         long = np.abs(step)[:, None, None]
-        radii = radii + family.gamma * np.abs(forms)
-        wide = gravity[1] + family.gamma * np.abs(gravity[0])
+        several = family.follows[active].sum(axis=1) > 1  # terms that may cancel are at most twice the form over the factor
+        per = np.abs(np.where(turned, corner, 1 / np.where(several, corner, 1.0)))
+        size = np.where(several, 4 * family.gamma * per, 0.0)
+        radii = radii + family.gamma * np.abs(forms) + size[:, None, None] * np.abs(inertia)
+        wide = gravity[1] + family.gamma * np.abs(gravity[0]) + size[:, None] * np.abs(pull.diagonal())
         self.radius_of_inertia = long * (sizes.T @ radii @ sizes)
         self.radius_of_pull = long * np.einsum("pa,ip,pb->iab", sizes, wide, sizes)
 
@@ -403,9 +406,8 @@ class _Box:
             by_inverse = _where(long[1] > 0, _where(turned, (1 / long[1], 1 / long[0]), straight), (0.0, 0.0))
         squared = _square((box_low[active, None], box_high[active, None]))
         data = _where(turned, _scaled(-1.0, _times(data, squared)), data)
-        by_weight, _, by_centroid, by_radius = (
-            (one, other) for one, other in zip(*(np.moveaxis(end[:, :-2].reshape(-1, 4, links), 1, 0) for end in data), strict=True)
-        )
+        rates = [np.moveaxis(end[:, :-2].reshape(-1, 4, links), 1, 0) for end in data]
+        by_weight, _, by_centroid, by_radius = zip(*rates, strict=True)
         over, turn = _over(weight, length), _over(radius, length)
         low, high = _running(weight)
         below = low[:-1], high[:-1]
@@ -426,7 +428,7 @@ class _Box:
         return np.stack([_middle(each) for each in (off, own, gravity)]).transpose(2, 0, 1, 3)
 
     def _slack(self, height: float) -> tuple[float, Floats]:
-        """How far the form M - L K (times the side) can be above 0 in the box, on the modes from this one on; see the theorem."""
+        """How far M - L K, times the side, can be above 0 in the box, on the modes from this one on; see the theorem."""
         side, gamma = self.side, self.family.gamma
         form = side * (self.inertia - height * self.pull)
         error = self.sizes[0] + height * self.sizes[1]
@@ -450,7 +452,7 @@ class _Box:
             wide = np.linalg.norm(np.vstack([error[:1, 1:], radius[:, 0, 1:]]) @ np.abs(inverse).T, axis=1)
             norm = np.linalg.norm(mixed, axis=1)
             cross = mixed @ mixed.T + np.outer(wide, norm) + np.outer(norm, wide) + np.outer(wide, wide)
-            cross = (cross + 1e-9 * np.outer(norm, norm))
+            cross = cross + 1e-7 * np.outer(norm, norm)  # of rounding in the inverse
             base, first, cross = float(cross[0, 0]), np.maximum(cross[0, 1:], 0.0), cross[1:, 1:]
             rich = np.maximum(gain, 0.0) + 1e-300
             pairs = 2 * np.maximum(cross, 0.0) * (rich[:, None] / (rich[:, None] + rich))

@@ -20,6 +20,7 @@ BOXES = 33  # into which the box of tolerances is divided at most, for each boun
 MOST_LINKS = 100
 CLOSE = 0.05  # of the range of a speed: the gap of a result that is a success
 _PARTS = 128  # of the interval of the ratio of a cord's tip to its mass
+_OF_SUPPORT = {"stiffness": -2, "support_mass": -1}  # places in the data of a `Family`
 _COLUMNS = ("mass", "length", "centroid", "radius_of_gyration")
 
 
@@ -84,7 +85,7 @@ class WorstCase(Result, row="mode", title="{_words}", notes=("{_remarks}",)):
     highest_at: Field[dict[str, Floats]] = Field("Data at which each highest speed is reached, in the same form.")
     boxes: Field[Whole] = Field("Number of parts of the box that were examined for each mode, shape (k,).")
     status: Field[str] = Field(
-        "``'success'``, or ``'budget_spent'`` if a gap is above 5 % of the range when the largest number of boxes is reached. "
+        "``'success'``, or ``'budget_spent'`` if a gap is above 5 % of the range after the largest number of boxes. "
         "The bounds are proved in both cases.",
         lambda w: "success" if not (w.gap > CLOSE).any() else "budget_spent",
         fact=True,
@@ -96,7 +97,10 @@ class WorstCase(Result, row="mode", title="{_words}", notes=("{_remarks}",)):
 
     @property
     def _remarks(self) -> str:
-        return "no system in the box is outside of the bounds; reached: by a system in the box; gap: part of the range not reached"
+        return "\n".join([
+            "no system in the box is outside of the bounds; reached: by a system in the box",
+            "gap: part of the proved range that was not reached",
+        ])  # fmt: skip
 
 
 def _outward(values: Floats, side: int) -> Floats:
@@ -186,7 +190,7 @@ def worst_of_modes(caller: str, modes: Modes, widths: dict[str, Floats], data: d
     family, names = _family(system, modes.gravity, widths, data)
 
     def data_at(end: Extreme) -> dict[str, Any]:
-        return {name: factor * end.factors[where] for name, where, factor in names}
+        return {name: factor * np.clip(end.factors[where], low, high) for name, where, factor, low, high in names}
 
     found = extremes(family, modes.number)
     return worst_of(found, modes.number, (modes.gravity, modes.gravity), data_at)
@@ -203,7 +207,8 @@ def _refuse_wide(caller: str, name: str, data: Floats, width: Floats) -> None:
         link = f" of links[{k}]" if np.ndim(data) else ""
         size = float(np.broadcast_to(width, np.shape(data)).flat[k])
         raise ValueError(
-            f"{caller}: the half-width of {name}{link} must be less than its value {float(np.atleast_1d(data)[k]):g}, got {size:g}"
+            f"{caller}: the half-width of {name}{link} must be less than its value {float(np.atleast_1d(data)[k]):g}, "
+            f"got {size:g}"
         )
 
 
@@ -221,7 +226,7 @@ def _family(system: Any, gravity: float, widths: dict[str, Floats], data: dict[s
             if name == "length_in_proportion":
                 row[[links + k, 2 * links + k, 3 * links + k]] = True
             else:
-                row[_COLUMNS.index(name) * links + k if name in _COLUMNS else {"stiffness": -2, "support_mass": -1}[name]] = True
+                row[_COLUMNS.index(name) * links + k if name in _COLUMNS else _OF_SUPPORT[name]] = True
             where.append(len(low))
             own = name not in ("length", "length_in_proportion")  # the factor is the datum itself, which may be 0
             if own:
@@ -232,7 +237,8 @@ def _family(system: Any, gravity: float, widths: dict[str, Floats], data: dict[s
             follows.append(row)
         factor: Any = value if name in ("length", "length_in_proportion") else 1.0
         at: Any = np.array(where)
-        names.append((name, at, factor) if np.ndim(data[name]) else (name, at[0], 1.0))
+        given = (name, at, factor, np.array(low)[at], np.array(high)[at])
+        names.append(given if np.ndim(data[name]) else (name, at[0], 1.0, given[3][0], given[4][0]))
     ends_of = [np.array(column) for column in (low, nominal, high)]
     wide = np.where(ends_of[2] > ends_of[0], 4 * EPS * np.abs(ends_of[1]), 0.0)  # of rounding
     made = np.array(follows, bool).reshape(-1, base.size)

@@ -44,7 +44,8 @@ class Vary(Table, frozen=True, rename={"first": "from", "last": "to"}):
     log: Annotated[bool, says("Whether the values have equal ratios instead of equal differences.")] = False
     values: Annotated[Listed | UnsetType, says("Values of a grid, instead of from, to and steps.")] = UNSET
     uniform: Annotated[
-        TwoNumbers | str | UnsetType, says('Random numbers with a uniform distribution, [low, high], [middle, "5 %"] or "38 m +- 0.5 m".')
+        TwoNumbers | str | UnsetType,
+        says('Random numbers with a uniform distribution, [low, high], [middle, "5 %"] or "38 m +- 0.5 m".'),
     ] = UNSET
     normal: Annotated[
         TwoNumbers | str | UnsetType, says('Random numbers with a normal distribution, [mean, deviation], [mean, "5 %"] or "38 m +- 0.5 m".')
