@@ -192,6 +192,27 @@ def test_extremes_are_at_the_data_they_name():
             assert rc.modes(there).angular_speed[k] == pytest.approx(reached[k], rel=1e-11)
 
 
+def test_paths_are_the_data_they_name():
+    """By path or by keyword the bounds agree; whole chains move in proportion; text may have the value."""
+    names = ["load", "block"]
+    rig = rc.Rig(rc.Chain(mass=[2500, 400], length=[6, 24], names=names), support=rc.Support(stiffness=2e5, mass=300))
+    modes = rc.modes(rig)
+    paths = {"links[load].mass": "2500 kg +- 5 %", "links[block].length_in_proportion": "+- 0.5 m", "support.stiffness": "10 %"}
+    one = modes.uncertainty(paths, worst=True).worst
+    other = modes.uncertainty(mass=["5 %", 0], length_in_proportion=[0, 0.5], stiffness="10 %", worst=True).worst
+    for name in ("lowest_angular_speed", "highest_angular_speed"):
+        assert getattr(one, name) == pytest.approx(getattr(other, name), rel=1e-11)
+    assert one.lowest_at["links[block].length_in_proportion"] == pytest.approx([24.5] * 3)
+    assert one.highest_at["support.stiffness"] == pytest.approx([2.2e5] * 3)
+    whole = rc.modes(rig.chain).uncertainty({"length": "1 %"}, worst=True).worst
+    assert whole.highest_angular_speed == pytest.approx(rc.modes(rig.chain).angular_speed / 0.99**0.5, rel=1e-11)
+    cord = rc.modes(rc.Cord(2.0, mass=1.0, tip_mass=0.3), 2)
+    by_path = cord.uncertainty({"length": "1 %", "tip_mass": 0.01}, worst=True).worst
+    assert by_path == cord.uncertainty(length="1 %", tip_mass=0.01, worst=True).worst
+    with pytest.raises(ValueError, match=r"half-width of links\[load\].mass must be less than its value 2500, got 5000"):
+        modes.uncertainty({"links[load].mass": "200 %"}, worst=True)
+
+
 def test_the_budget_is_kept_and_said():
     length = np.linspace(0.5, 1.5, 4)
     chain = rc.Chain(mass=1.0, length=length, centroid=0.6 * length, radius_of_gyration=0.3 * length)

@@ -120,8 +120,9 @@ class Report:
                 if part is not None:
                     console.print(part)
         for note in self.sheet.notes:
-            if self.scene.order == "support first":
-                note = in_file(note, self.scene._bodies())
+            if "links[" in note:
+                bodies = self.scene._bodies()
+                note = in_file(note, bodies[::-1] if self.scene.order == "support first" else bodies)
             console.print(Text(note, style="dim"))
 
 

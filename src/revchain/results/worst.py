@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -177,17 +177,34 @@ def refuse_unbounded(caller: str, system: Any) -> None:
         raise ValueError(f"{caller}: worst is for at most {MOST_LINKS} links, got {system.size}; leave worst out")
 
 
-def worst_of_modes(caller: str, modes: Modes, widths: dict[str, Floats], data: dict[str, Any]) -> WorstCase:
-    """The worst case of modes; `widths` has the half-widths of the data by name, `data` their nominal values."""
+class Moved(NamedTuple):
+    """A datum that was given by its path: the data that it moves, its nominal value, and its half-width."""
+
+    name: str  # of data of links or of the support
+    factor: Any  # not 0 for the links that follow it
+    present: float
+    width: float
+
+
+def worst_of_modes(
+    caller: str, modes: Modes, widths: dict[str, Floats], data: dict[str, Any], moved: dict[str, Moved]
+) -> WorstCase:
+    """The worst case of modes.
+
+    `widths` has the half-widths of data by name, `data` the nominal values, and `moved` the data that were given by path.
+    """
     system = modes.system
     refuse_unbounded(caller, system)
     for name, width in widths.items():
         if width.ndim == 2:
             raise ValueError(f"{caller}: {name} must be half-widths of tolerances with worst=True, not a covariance")
         _refuse_wide(caller, name, np.asarray(data[name], float), width)
+    for path, each in moved.items():
+        _refuse_wide(caller, path, np.float64(each.present), np.float64(each.width), each.name)
     if system._is_cord:
-        return _worst_of_cord(caller, modes, widths, data)
-    family, names = _family(system, modes.gravity, widths, data)
+        by_name = {each.name: np.array(each.width) for each in moved.values()}
+        return _worst_of_cord(caller, modes, widths | by_name, data)
+    family, names = _family(system, modes.gravity, widths, data, moved)
 
     def data_at(end: Extreme) -> dict[str, Any]:
         return {name: factor * np.clip(end.factors[where], low, high) for name, where, factor, low, high in names}
@@ -196,12 +213,13 @@ def worst_of_modes(caller: str, modes: Modes, widths: dict[str, Floats], data: d
     return worst_of(found, modes.number, (modes.gravity, modes.gravity), data_at)
 
 
-def _refuse_wide(caller: str, name: str, data: Floats, width: Floats) -> None:
+def _refuse_wide(caller: str, name: str, data: Any, width: Any, of: str = "") -> None:
     """Raise a ValueError if a datum that must be positive, or not negative, could leave that range."""
-    if name == "centroid":
+    of = of or name
+    if of == "centroid":
         return
     low = data - width
-    wrong = low < 0 if name in ("radius_of_gyration", "support_mass") else (low <= 0) & (width > 0)
+    wrong = low < 0 if of in ("radius_of_gyration", "support_mass") else (low <= 0) & (width > 0)
     if wrong.any():
         k = int(np.flatnonzero(np.atleast_1d(wrong))[0])
         link = f" of links[{k}]" if np.ndim(data) else ""
@@ -212,7 +230,9 @@ def _refuse_wide(caller: str, name: str, data: Floats, width: Floats) -> None:
         )
 
 
-def _family(system: Any, gravity: float, widths: dict[str, Floats], data: dict[str, Any]) -> tuple[Family, list[Any]]:
+def _family(
+    system: Any, gravity: float, widths: dict[str, Floats], data: dict[str, Any], moved: dict[str, Moved]
+) -> tuple[Family, list[Any]]:
     """The systems in the box, and for each datum its name, the indices of its factors, and what they are multiplied by."""
     base = data_of(system, gravity)
     links = (base.size - 2) // 4
@@ -239,6 +259,22 @@ def _family(system: Any, gravity: float, widths: dict[str, Floats], data: dict[s
         at: Any = np.array(where)
         given = (name, at, factor, np.array(low)[at], np.array(high)[at])
         names.append(given if np.ndim(data[name]) else (name, at[0], 1.0, given[3][0], given[4][0]))
+    for path, each in moved.items():
+        row = np.zeros(base.size, bool)
+        there = np.flatnonzero(np.broadcast_to(np.asarray(each.factor) != 0, links))
+        if each.name in _OF_SUPPORT:
+            row[_OF_SUPPORT[each.name]] = True
+        for name in _COLUMNS[1:] if each.name == "length_in_proportion" else (each.name,):
+            if name in _COLUMNS:
+                row[_COLUMNS.index(name) * links + there] = True
+        if each.present == 0:  # the factor is the datum itself
+            base[row] = 1.0
+        scale = each.present or 1.0
+        place, nominal_of = len(low), each.present / scale
+        for numbers, end in zip((low, nominal, high), (-1, 0, 1), strict=True):
+            numbers.append(nominal_of + end * each.width / abs(scale))
+        follows.append(row)
+        names.append((path, place, scale, low[place], high[place]))
     ends_of = [np.array(column) for column in (low, nominal, high)]
     wide = np.where(ends_of[2] > ends_of[0], 4 * EPS * np.abs(ends_of[1]), 0.0)  # of rounding
     made = np.array(follows, bool).reshape(-1, base.size)

@@ -161,10 +161,13 @@ def _swing(table: Table, given: Given, system: Whirling | None, numbers: Numbers
     if yields and support is not None and support.stiffness == 0 and moved and "force" not in moved:
         yields = False  # the trolley is moved itself
     moving = system.size + yields
+    order = "free end first" if system._listed.step == 1 else "support first"
     for name in ("offset", "velocity"):
         if name in given and len(given[name]) != moving:
             each = f"must have a number for each of the {moving} pins that move"
-            numbers.refuse(name, f"{each}, free end first, got {len(given[name])}")
+            numbers.refuse(name, f"{each}, {order}, got {len(given[name])}")
+        elif name in given:
+            given[name] = given[name][system._listed]
 
 
 def _campbell(table: AskCampbell, given: Given, system: Whirling | None, numbers: Numbers) -> None:

@@ -201,7 +201,7 @@ _REPAIRS = tuple(  # what stands before what is wrong, that itself, what to writ
         (r"^\s*", r"//(?P<a>.*)", "#{a}", "a comment begins with #"),
     )
 )
-_PATHS = re.compile(r"(\s*\[?(?:vary\.)?)(\w+\[\d+\](?:\.\w+(?:\[\d+\])?)*)(\s*=.*|\]\s*(?:#.*)?)")
+_PATHS = re.compile(r"(\s*\[?(?:vary\.)?)(\w+\[[^\[\]=#\"']+\](?:\.\w+(?:\[\d+\])?)*)(\s*=.*|\]\s*(?:#.*)?)")
 
 
 def _repaired(line: str) -> tuple[str, int, str] | None:

@@ -13,7 +13,7 @@ import numpy as np
 from msgspec import UNSET, UnsetType, json
 
 from ..closed_forms.governor import SleeveGovernor
-from ..systems.chain import Chain
+from ..systems.chain import Chain, Order
 from ..systems.cord import Cord
 from ..systems.drag import Drag
 from ..systems.held import Held
@@ -173,7 +173,7 @@ def system_of(scene: Tables, source: str) -> tuple[System | None, float]:
         numbers.done()
         return governor, numbers.gravity
     links = scene._links()
-    made = _chain_of_links(links, numbers) if links else _whole(getattr(scene, given[0]), numbers.of(given[0]))
+    made = _chain_of_links(links, scene.order, numbers) if links else _whole(getattr(scene, given[0]), numbers.of(given[0]))
     system: Whirling | None = made
     if scene.is_rigged and (scene.held is not UNSET or scene.cord is not UNSET):
         name = "cord" if scene.held is UNSET else "held"
@@ -239,7 +239,7 @@ def _by_place(particles: list[Given], heavy: str) -> dict[float, float]:
     return found
 
 
-def _chain_of_links(links: Links, numbers: Numbers) -> Chain | None:
+def _chain_of_links(links: Links, order: Order, numbers: Numbers) -> Chain | None:
     """The chain that the links make; None if a number is wrong, which is noted already."""
     repeats = [link.repeat for _, link in links]
     if (count := sum(repeats)) > MOST_LINKS:
@@ -258,9 +258,9 @@ def _chain_of_links(links: Links, numbers: Numbers) -> Chain | None:
     given = _columns(bodies, repeats)
     if not given["radius_of_gyration"].any() and np.array_equal(given["centroid"], given["length"]):
         del given["centroid"], given["radius_of_gyration"]
-    names = [link.name for _, link in links for _ in range(link.repeat)] if any(link.name for _, link in links) else []
+    names = [link.name or f"links[{index}]" for index, link in links for _ in range(link.repeat)]
     try:
-        chain = Chain(**given, names=[name or f"links[{k}]" for k, name in enumerate(names)] or None)
+        chain = Chain(**given, names=names if any(link.name for _, link in links) else None)
         firsts = accumulate(repeats[:-1], initial=0)
         from_above = list(zip(firsts, tips, links, strict=True))[::-1]  # so that the numbers of lower pins stay valid
         for first, tip, (_, link) in from_above:
@@ -268,7 +268,7 @@ def _chain_of_links(links: Links, numbers: Numbers) -> Chain | None:
                 chain = chain.with_body(**{numbers.heavy: tip}, pin=first)
             if link.clamped:
                 chain = chain.clamped(first)
-        return chain
+        return chain if order == chain.order else Chain._wrap(chain._compiled, chain.by_mass, chain.names, order)
     except ValueError as error:
         numbers.problems.append(problem_of(error, "links", links))
         return None

@@ -314,7 +314,7 @@ class AskSwing(Table, frozen=True):
 
     offset: Annotated[
         Listed | UnsetType,
-        says("Offset of each pin at the start (m), free end first, without the support unless it yields."),
+        says("Offset of each pin at the start (m), in the order of the links, without the support unless it yields."),
     ] = UNSET
     velocity: Annotated[
         Listed | UnsetType, says("Velocity of each pin at the start (m/s), in the same order; at rest if left out.")
@@ -434,7 +434,10 @@ class Tables(Table, frozen=True):
     title: Annotated[str, says("Title in one line.")] = ""
     description: Annotated[str, says("Description of any length.")] = ""
     gravity: Annotated[Positive, says("Acceleration of gravity (m/s^2).")] = STANDARD_GRAVITY
-    order: Annotated[Literal["free end first", "support first"], says("Order of the links.")] = "free end first"
+    order: Annotated[
+        Literal["free end first", "support first"],
+        says("Order of the links; all indices and lists of the scene and its studies count in it."),
+    ] = "free end first"
     links: Annotated[list[Link] | UnsetType, says("The links, in the given order.")] = UNSET
     uniform_chain: Annotated[UniformChain | UnsetType, says("Equal links, instead of links.")] = UNSET
     tapered_chain: Annotated[
