@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ..results.base import asked_in
 from ..results.fitted import Fitted
 
 from ..results.sensitivity import rig_derivatives
@@ -21,7 +22,7 @@ from ..systems.held import Held
 from ..systems.numbers import STANDARD_GRAVITY, Floats, Whole, integer, one_positive, real, shown
 from ..systems.rig import Rig
 from ..systems.system import System
-from ..systems.units import SI, has_units, in_si, unpacked, with_tolerance
+from ..systems.units import SI, has_units, in_si, speed_unit, unpacked, with_tolerance
 from .modes import straight
 from .refuse import no_system
 from .speeds import Speeds, speeds
@@ -148,7 +149,8 @@ def fit(
             f"got {number.min()}"
         )
     model = _Model(system, data, number, speed, np.abs(speed if deviation is None else deviation), g)
-    return _fitted(model, *_least(model, np.array([_start(*each) for each in zip(data, starts, strict=True)])), deviation)
+    found = _fitted(model, *_least(model, np.array([_start(*each) for each in zip(data, starts, strict=True)])), deviation)
+    return asked_in(speed_unit(list(measured.values())), found)
 
 
 class _Model:

@@ -10,9 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..systems.numbers import Floats
-from ..systems.units import SPEEDS
 from .base import Field, Result
-from .sheet import Sheet
+from .sheet import Sheet, in_unit
 
 
 class Crossing(NamedTuple):
@@ -29,11 +28,6 @@ class Crossing(NamedTuple):
     def rpm(self) -> float:
         """The speed in revolutions per minute."""
         return self.angular_speed * 30 / np.pi
-
-
-def _said(speed: float, unit: str) -> float:
-    per_radian = SPEEDS[unit][1]
-    return float(per_radian / speed if unit == "s" else per_radian * speed)
 
 
 class Campbell(Result, row="speed", title="{summary}", notes=("{_remarks}",), spread=True):
@@ -90,7 +84,7 @@ class Campbell(Result, row="speed", title="{summary}", notes=("{_remarks}",), sp
 
     def _words(self) -> str:
         unit = self._speed_unit or "rpm"
-        ends = [_said(at, unit) for at in self.angular_speed[[0, -1]]]
+        ends = [in_unit(at, unit) for at in self.angular_speed[[0, -1]]]
         many = self.frequency.shape[1]
         return f"Campbell diagram: {many} frequenc{'y' if many == 1 else 'ies'} from {ends[0]:.4g} to {ends[1]:.4g} {unit}"
 
@@ -98,7 +92,7 @@ class Campbell(Result, row="speed", title="{summary}", notes=("{_remarks}",), sp
     def _remarks(self) -> str:
         unit = self._speed_unit or "rpm"
         lines = [
-            f"{one.order}n meets frequency {one.motion} at {_said(one.angular_speed, unit):.5g} {unit}" for one in self.crossings
+            f"{one.order}n meets frequency {one.motion} at {in_unit(one.angular_speed, unit):.5g} {unit}" for one in self.crossings
         ]
         if missing := int(np.isnan(self.frequency).all(axis=1).sum()):
             lines.append(f"nan: at {missing} of {self.angular_speed.size} speeds no shape was found, or none of its motions oscillates")

@@ -124,15 +124,14 @@ def in_speed_unit(sheet: Sheet, unit: str | None) -> Sheet:
     """
     if unit is None:
         return sheet
-    quantity, per_radian = SPEEDS[unit]
+    quantity = SPEEDS[unit][0]
     columns, speeds = [], None
     for column in sheet.columns:
         heading = column.heading
         if heading.endswith(" (rad/s)"):
             words = heading.removesuffix(" (rad/s)")
             values = np.asarray(column.values if column.shown is None else column.shown, np.float64)
-            with np.errstate(divide="ignore"):
-                shown = per_radian / values if unit == "s" else values * per_radian
+            shown = in_unit(values, unit)
             speeds = values if speeds is None else speeds
             words = quantity if words == "speed" else words if quantity == "speed" or quantity in words else f"{words}, as {quantity}"
             column = column._replace(heading=f"{words} ({unit})", shown=shown)
@@ -148,12 +147,20 @@ def _is_period(column: Column, speeds: Any) -> bool:
         return bool(np.allclose(np.asarray(column.values, np.float64), 2 * math.pi / np.abs(speeds), rtol=1e-9, equal_nan=True))
 
 
+def in_unit(speed: Any, unit: str) -> Any:
+    """A speed in rad/s, or an array of them, in a unit of `units.SPEEDS`; periods have the sign of the speed."""
+    per_radian = SPEEDS[unit][1]
+    if unit != "s":
+        return per_radian * speed
+    with np.errstate(divide="ignore"):
+        return np.divide(per_radian, speed)
+
+
 def speed_text(speed: float, unit: str | None, count: int = 6) -> str:
     """A speed with the unit asked: in rad/s and rpm, or in Hz or as a period with rad/s beside it."""
     radians = f"{digits(speed, count)} rad/s"
     if unit in ("Hz", "s"):
-        number = SPEEDS[unit][1] / speed if unit == "s" else SPEEDS[unit][1] * speed
-        return f"{'a period of ' if unit == 's' else ''}{digits(number, count)} {unit} ({radians})"
+        return f"{'a period of ' if unit == 's' else ''}{digits(in_unit(speed, unit), count)} {unit} ({radians})"
     return f"{radians} ({digits(speed * 30 / math.pi, 4)} rpm)"
 
 

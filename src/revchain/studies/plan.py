@@ -14,10 +14,10 @@ import numpy as np
 from msgspec import UNSET, UnsetType, convert
 from numpy.typing import NDArray
 
+from ..results.sheet import in_unit
 from ..scenes.tables import DEFAULT_MODES, AskModes, Spread
 from ..scenes.system import Numbers
 from ..scenes.scene import Scene
-from ..systems.units import SPEEDS
 from .axes import Axis, with_value
 from .batch import Links
 
@@ -263,14 +263,8 @@ def said(plan: Plan, name: str) -> dict[str, tuple[str, Callable[[Any], Any]]]:
         return {}
     found: dict[str, tuple[str, Callable[[Any], Any]]] = {}
     for way in plan.ways:
-        found[name.replace("angular_speed", way)] = WAYS[way], partial(in_way, WAYS[way])
+        found[name.replace("angular_speed", way)] = WAYS[way], partial(in_unit, unit=WAYS[way])
     return found
-
-
-def in_way(unit: str, speed: Any) -> Any:
-    """Speeds in rad/s in a unit of `units.SPEEDS`."""
-    with np.errstate(divide="ignore"):
-        return SPEEDS[unit][1] / speed if unit == "s" else SPEEDS[unit][1] * speed
 
 
 def columns_of(name: str, labels: tuple[int, ...]) -> list[str]:

@@ -11,11 +11,12 @@ import numpy as np
 
 from ..results.enclosures import EPS, Family
 from ..results.modes import Modes
+from ..results.sheet import in_unit
 from ..results.worst import WorstCase, data_of, extremes, refuse_unbounded, worst_of
 from ..scenes.scene import Scene
 from ..scenes.tables import Table, says
 from ..systems.numbers import Floats
-from .plan import WAYS, Plan, Values, in_way
+from .plan import WAYS, Plan, Values
 
 SPEEDS = ("lowest_angular_speed", "lowest_reached", "highest_reached", "highest_angular_speed")
 
@@ -112,5 +113,5 @@ def worst_cases(plan: Plan, values: Values) -> dict[str, tuple[list[str], Floats
     for way, unit in WAYS.items():
         for end, speed in zip(("lowest", "highest"), (SPEEDS[0], SPEEDS[-1])[:: -1 if unit == "s" else 1], strict=True):
             if way in plan.ways:
-                said[f"{end}_{way}"] = [*grids, "mode"], in_way(unit, stored[speed][1]), {"units": unit}
+                said[f"{end}_{way}"] = [*grids, "mode"], in_unit(stored[speed][1], unit), {"units": unit}
     return said

@@ -82,6 +82,7 @@ def speed_unit(value: Any) -> str | None:
     if isinstance(value, list | tuple):
         return next((unit for unit in map(speed_unit, value) if unit), None)
     if isinstance(value, str):
+        value = (with_tolerance(value) or (value,))[0]
         found = re.fullmatch(rf"\s*{_NUMBER}(.*)", value)
         return _way(found[4].strip()) if found and re.match(PATTERN, value) else None
     return _way(str(value.units)) if hasattr(value, "dimensionality") else None
