@@ -120,6 +120,14 @@ def test_printed_numbers_are_the_stored_ones_in_the_unit():
     assert in_speed_unit(modes._sheet(), None).columns == modes._sheet().columns
 
 
+def test_uncertainties_speak_the_unit_but_deviations_are_no_periods():
+    window = rc.modes(CHAIN, angular_speed=("1 rpm", "600 rpm"))
+    assert "speed at least (rpm)" in repr(window.uncertainty(mass="5 %", worst=True))
+    assert "of the speed (rpm)" in repr(window.uncertainty(mass="5 %"))
+    periods = rc.modes(CHAIN, angular_speed=("10 s", "0.1 s")).uncertainty(mass="5 %")
+    assert "of the speed (rad/s)" in repr(periods) and repr(periods) == repr(rc.modes(CHAIN).uncertainty(mass="5 %"))
+
+
 def test_windows_and_ranges_of_periods():
     slow, fast = rc.modes(CHAIN).period
     both = rc.modes(CHAIN, angular_speed=(f"{0.9 * fast} s", f"{1.1 * slow} s"))
@@ -251,11 +259,18 @@ def test_the_command_line(run, tmp_path):
     assert code == 2 and 'write "60 Hz" or "60 rad/s"' in err
     plan = tmp_path / "s.toml"
     plan.write_text('scene = "a.toml"\nfind = ["period"]\n[vary."links[0].mass"]\nvalues = [2000, 2500]\n')
+    (tmp_path / "r.toml").write_text(plan.read_text().replace('find = ["period"]', ""))
     code, out, _ = run("sweep", plan, "--out", tmp_path / "s.csv")
     assert code == 0 and "period_1" in out
-    assert (tmp_path / "s.csv").read_text().splitlines()[0].replace('"', "") == "point,links[0].mass,period_1,period_2,status"
+    table = (tmp_path / "s.csv").read_text()
+    code, out, _ = run("sweep", tmp_path / "r.toml", "--out", tmp_path / "r.csv", "--speed", "Hz")
+    assert code == 0 and re.search(r"angular_speed_1 \(Hz\) +0\.09", out)
+    code, _, err = run("sweep", tmp_path / "r.toml", "--speed", "min")
+    assert code == 2 and err == "revchain: --speed: must be one of rad/s, rpm, Hz, s, got min\n"
+    assert table.splitlines()[0].replace('"', "") == "point,links[0].mass,period_1,period_2,status"
 
 
+@pytest.mark.slow  # twenty pictures
 def test_pictures_take_every_unit():
     """Every drawing with speeds takes the four units, and says which one it drew."""
     results = [rc.modes(CHAIN), rc.response(CHAIN, angular_speed=[2.0, 6.0, 9.0]), rc.branches(CHAIN, max_angular_speed=6.0),

@@ -192,6 +192,17 @@ def test_extremes_are_at_the_data_they_name():
             assert rc.modes(there).angular_speed[k] == pytest.approx(reached[k], rel=1e-11)
 
 
+def test_nothing_is_proved_of_a_chain_that_may_tip_over():
+    """The upper body's centre of gravity is above its pin: with a light load the chain does not hang."""
+    chain = rc.Chain(mass=[1.0, 2.0], length=[0.5, 0.4], centroid=[0.3, -0.15], radius_of_gyration=[0.1, 0.1])
+    firm = rc.modes(chain).uncertainty(mass="5 %", worst=True).worst
+    assert firm.status == "success" and (firm.lowest_angular_speed > 0).all()
+    may_tip = rc.modes(chain).uncertainty(mass="40 %", worst=True).worst
+    assert may_tip.status == "budget_spent"
+    assert (may_tip.lowest_angular_speed == 0).all() and np.isinf(may_tip.highest_angular_speed).all()
+    assert "nan" not in repr(may_tip)
+
+
 def test_paths_are_the_data_they_name():
     """By path or by keyword the bounds agree; whole chains move in proportion; text may have the value."""
     names = ["load", "block"]

@@ -23,9 +23,8 @@ from ..scenes.parse import is_json, text_of
 from ..scenes.positions import positions_in
 from ..scenes.scene import EXCLUSIVE, Scene, load_scene, read
 from ..systems.extras import require
-from ..systems.units import SPEEDS
 from . import ExitCode
-from .frame import STDOUT, Stop, app, epilog, guarded, outputs_of
+from .frame import STDOUT, Speed, Stop, app, check_speed, epilog, guarded, outputs_of
 from .progress import watched
 from .report import Report
 
@@ -36,10 +35,6 @@ Gravity = Annotated[
     str | None, typer.Option(metavar="G", help="Gravity in m/s^2 or with a unit; overrides that of the scene.")
 ]
 Units = Annotated[str, typer.Option(metavar="deg|rad", help="Unit of angles in tables; files have radians.")]
-Speed = Annotated[
-    str | None,
-    typer.Option(metavar="rad/s|rpm|Hz|s", help="Unit of speeds in tables and pictures; files have rad/s."),
-]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print no table and no progress bar.")]
 COMMON: dict[str, tuple[Any, Any]] = {
     "gravity": (Gravity, None),
@@ -178,8 +173,7 @@ def read_scene(path: Path, gravity: str | None, units: str, speed: str | None = 
     """The scene, with another gravity or unit of speeds if one is given."""
     if units not in ("deg", "rad"):
         raise Stop(f"--units: must be deg or rad, got {units}", ExitCode.WRONG_USAGE)
-    if speed is not None and speed not in SPEEDS:
-        raise Stop(f"--speed: must be one of {', '.join(SPEEDS)}, got {speed}", ExitCode.WRONG_USAGE)
+    check_speed(speed)
     changed = {} if speed is None else {"speed": speed}
     if gravity is None:
         return read(path, changed) if changed else load_scene(path)

@@ -15,6 +15,7 @@ import typer
 from ..plots.style import plain
 from ..scenes.error import SceneError
 from ..systems.extras import require
+from ..systems.units import SPEEDS
 from . import MEANING, ExitCode
 
 Arguments = ParamSpec("Arguments")
@@ -158,6 +159,18 @@ def save_picture(axes: Any, title: str, path: Path) -> None:
     """Write a picture with its title."""
     axes.set_title(plain(title), wrap=True)
     axes.figure.savefig(path, dpi=200)
+
+
+Speed = Annotated[
+    str | None,
+    typer.Option(metavar="rad/s|rpm|Hz|s", help="Unit of speeds in tables and pictures; files have rad/s."),
+]
+
+
+def check_speed(speed: str | None) -> None:
+    """Check the unit of the option --speed."""
+    if speed is not None and speed not in SPEEDS:
+        raise Stop(f"--speed: must be one of {', '.join(SPEEDS)}, got {speed}", ExitCode.WRONG_USAGE)
 
 
 def checked_picture(plot: Path) -> None:

@@ -23,7 +23,7 @@ from ..studies.study import Study, load_study
 from ..studies.sweep import check_ending, columns
 from ..studies.sweep import sweep as compute
 from . import ExitCode
-from .frame import Stop, app, checked_picture, epilog, guarded, save_picture
+from .frame import Speed, Stop, app, check_speed, checked_picture, epilog, guarded, save_picture
 from .progress import counted
 
 if TYPE_CHECKING:
@@ -46,6 +46,7 @@ def sweep(
     plot: Annotated[Path | None, typer.Option(metavar="FILE", help="Picture: .png, .svg or .pdf.")] = None,
     workers: Annotated[int | None, typer.Option(metavar="K", min=1, help="Number of threads or processes.")] = None,
     processes: Annotated[bool, typer.Option("--processes", help="Use processes instead of threads.")] = False,
+    speed: Speed = None,
     chunk: Annotated[
         int | None, typer.Option(metavar="K", min=1, help="Number of points computed and stored together.")
     ] = None,
@@ -54,6 +55,7 @@ def sweep(
 ) -> None:
     """Compute many variations of a scene; an interrupted run continues where it stopped."""
     given = load_study(study)
+    check_speed(speed)
     if check:
         print("\n".join(_plan(given, str(study))))
         return
@@ -82,6 +84,8 @@ def sweep(
                 found = compute(given, out=out, executor=pool, workers=workers, chunk=chunk, progress=told)
         except KeyboardInterrupt:
             raise Stop(f"interrupted; repeat the command to continue from {out}.partial", ExitCode.INTERRUPTED) from None
+        if speed is not None:
+            found.attrs["speed_unit"] = speed
         if plot is not None:
             save_picture(plot_sweep(found), given.title or study.stem, picture)
     if not quiet:

@@ -482,6 +482,8 @@ def extreme(family: Family, row: int, side: int, budget: int) -> Extreme:
     high = np.where(effect < 0, family.low, np.where(effect == 0, family.nominal, family.high))
     value, _ = family.modes(family.nominal)
     nominal, order = float(value[row]), count()
+    if not (_pull(family, _parts(family, family.low, family.high))[0][: family.links] > 0).all():  # it may not hang at rest
+        return Extreme(math.inf if side > 0 else 0.0, nominal, family.nominal, 0)
     first = _Box(family, low, high, row, side)
     best, factors = (first.height, first.factors) if side * (first.height - nominal) > 0 else (nominal, family.nominal)
     boxes, examined = [(-side * first.bound, next(order), first)], 1

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
 from ..systems.numbers import Floats, Numbers, Whole, boolean, floats, one_positive, place_of, refuse_beyond_memory, refuse_where
-from .base import Field, Result, Row, UnavailableError
+from .base import Field, Result, Row, UnavailableError, asked_in
 from .moving import Moving
 
 if TYPE_CHECKING:
@@ -551,7 +551,10 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         with_worst = boolean("revchain.Modes.uncertainty", "worst", worst)
         given = {name: value for name, value in locals().items() if name in _DEVIATIONS and value is not None}
         found: Uncertainty = uncertainty_of_modes(self, given, {} if data is None else data, with_worst)
-        return found
+        unit = None if self._speed_unit == "s" else self._speed_unit  # deviations of periods are there, and are no periods
+        if found.worst is not None:
+            asked_in(unit, found.worst)
+        return asked_in(unit, found)
 
     def along(self, arc_length: ArrayLike) -> Floats:
         """Return the offsets of all modes of a cord at places of the cord.

@@ -74,7 +74,8 @@ class WorstCase(Result, row="mode", title="{_words}", notes=("{_remarks}",)):
         "Proved upper bound of each conical height, m, shape (k,).", axes=(), unit="m"
     )
     gap: Field[Floats] = Field(
-        "Part of the proved range of each speed that was not reached, shape (k,): 0 if the extremes are exact.",
+        "Part of the proved range of each speed that was not reached, shape (k,): 0 if the extremes are exact, 1 if nothing "
+        "is proved because the chain may tip over.",
         lambda w: _gap(w),
         heading="gap",
         digits=2,
@@ -112,7 +113,8 @@ def _gap(worst: WorstCase) -> Floats:
         wide = worst.highest_angular_speed - worst.lowest_angular_speed
         inner = worst.highest_reached - worst.lowest_reached
         gap = np.where(np.isfinite(wide), 1 - inner / wide, 1.0)
-    return np.where(wide <= 1e-9 * worst.highest_angular_speed, 0.0, np.maximum(gap, 0.0))
+    nothing = np.isfinite(wide) & (wide <= 1e-9 * worst.highest_angular_speed)
+    return np.where(nothing, 0.0, np.maximum(gap, 0.0))
 
 
 def worst_of(found: list[tuple[Extreme, Extreme]], number: Any, gravity: tuple[float, float], data_at: Any) -> WorstCase:
