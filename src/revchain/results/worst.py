@@ -12,6 +12,7 @@ from .. import _core
 from ..systems.numbers import Floats, Whole
 from .base import Field, Result
 from .enclosures import EPS, Extreme, Family, extreme
+from .sheet import in_unit
 
 if TYPE_CHECKING:
     from .modes import Modes
@@ -57,13 +58,13 @@ class WorstCase(Result, row="mode", title="{_words}", notes=("{_remarks}",)):
     )
     lowest_period: Field[Floats] = Field(
         "Proved lower bound of each period, s, shape (k,).",
-        lambda w: _outward(2 * np.pi / w.highest_angular_speed, -1),
+        lambda w: _outward(in_unit(w.highest_angular_speed, "s"), -1),
         heading="period at least",
         unit="s",
     )
     highest_period: Field[Floats] = Field(
         "Proved upper bound of each period, s, shape (k,).",
-        lambda w: _outward(2 * np.pi / w.lowest_angular_speed, 1),
+        lambda w: _outward(in_unit(w.lowest_angular_speed, "s"), 1),
         heading="period at most",
         unit="s",
     )
