@@ -95,7 +95,7 @@ def test_both_ends_held():
     [
         ({"links": LINKS}, "steady_shapes", {}, "ask.shapes: give angular_speed or conical_height"),
         ({"links": LINKS}, "response", {}, "ask.response: give angular_speed or conical_height"),
-        ({"links": LINKS}, "swing", {}, "ask.swing.offset: give offset, velocity or support_time"),
+        ({"links": LINKS}, "swing", {}, "ask.swing: give offset, velocity or support_time"),
         ({"links": LINKS}, "branches", {}, "ask.branches: give max_angular_speed or min_conical_height"),
         (BLADE, "modes", {}, "held at a span is bent"),
         (BLADE, "response", {"angular_speed": 3.0}, "is not available for a"),

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 import revchain as rc
 from revchain.plots.sweep import plot_sweep
 from revchain.results.sheet import in_speed_unit
-from revchain.systems.units import SPEEDS, si_value, speed_unit, with_tolerance
+from revchain.systems.units import SPEED_UNITS, si_value, speed_unit, with_tolerance
 
 CHAIN = rc.Chain(mass=[1.0, 3.0], length=0.5)
 CAROUSEL = rc.Rig(rc.Chain(mass=80.0, length=4.0), support=rc.Support(radius=3.0))
@@ -23,12 +23,12 @@ LINKS = [{"mass": 2500, "length": 6}, {"mass": 400, "length": 24}]
 
 def said(speed, unit):
     """A speed in rad/s as a user writes it in a unit."""
-    per = SPEEDS[unit][1]
+    per = SPEED_UNITS[unit][1]
     return TEXT[unit].format(per / speed if unit == "s" else per * speed)
 
 
 @settings(max_examples=40)
-@given(st.floats(1e-6, 1e6), st.sampled_from(sorted(SPEEDS)))
+@given(st.floats(1e-6, 1e6), st.sampled_from(sorted(SPEED_UNITS)))
 def test_the_four_ways_say_one_speed(speed, unit):
     assert si_value(said(speed, unit), "angular_speed") == pytest.approx(speed, rel=1e-14)
     assert speed_unit(said(speed, unit)) == unit
@@ -85,7 +85,7 @@ QUESTIONS = {
 def test_every_question_takes_the_four_ways(question):
     """The numbers agree, and what is printed speaks the unit that was asked."""
     plain = QUESTIONS[question](lambda speed: speed)
-    for unit in SPEEDS:
+    for unit in SPEED_UNITS:
         found = QUESTIONS[question](lambda speed, unit=unit: said(speed, unit))
         assert found._speed_unit == unit and plain._speed_unit is None
         one, other = (np.asarray(x.angular_speed if hasattr(x, "angular_speed") else x.highest_speed, float) for x in (found, plain))
@@ -114,7 +114,7 @@ def test_printed_numbers_are_the_stored_ones_in_the_unit():
     modes = rc.modes(CHAIN)
     for unit, field in (("rad/s", "angular_speed"), ("rpm", "rpm"), ("Hz", "frequency"), ("s", "period")):
         sheet = in_speed_unit(modes._sheet(brief=True), unit)
-        [shown] = [column for column in sheet.columns if column.heading == f"{SPEEDS[unit][0]} ({unit})"]
+        [shown] = [column for column in sheet.columns if column.heading == f"{SPEED_UNITS[unit][0]} ({unit})"]
         assert shown.shown == pytest.approx(getattr(modes, field), rel=1e-14)
         assert (shown.values == modes.angular_speed).all() or unit == "s"
     assert in_speed_unit(modes._sheet(), None).columns == modes._sheet().columns
@@ -175,7 +175,7 @@ def test_a_study_stores_what_it_is_asked_to_find():
         found = rc.sweep(study(grid, find=[way]))
         assert set(found.data_vars) == {way, "status"} and found[way].attrs["units"] == unit
         speed = plain["angular_speed"].to_numpy()
-        wanted = 2 * np.pi / speed if unit == "s" else speed * SPEEDS[unit][1]
+        wanted = 2 * np.pi / speed if unit == "s" else speed * SPEED_UNITS[unit][1]
         assert found[way].to_numpy() == pytest.approx(wanted, rel=1e-14)
     both = rc.sweep(study(grid, find=["period", "rpm"]))
     assert set(both.data_vars) == {"period", "rpm", "status"}
@@ -275,7 +275,7 @@ def test_pictures_take_every_unit():
     """Every drawing with speeds takes the four units, and says which one it drew."""
     results = [rc.modes(CHAIN), rc.response(CHAIN, angular_speed=[2.0, 6.0, 9.0]), rc.branches(CHAIN, max_angular_speed=6.0),
                rc.branch(CHAIN, 1, max_angular_speed=6.0), rc.campbell(CAROUSEL, np.linspace(0.4, 1.4, 9))]  # fmt: skip
-    for found, unit in itertools.product(results, SPEEDS):
+    for found, unit in itertools.product(results, SPEED_UNITS):
         ax = found.plot(speed=unit)
         labels = [ax.get_xlabel(), *(label.get_text() for label in ax.get_xticklabels())]
         assert any(unit in label for label in labels), (type(found), unit)

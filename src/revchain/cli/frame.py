@@ -11,11 +11,12 @@ from pathlib import Path
 from typing import Annotated, Any, NoReturn, ParamSpec
 
 import typer
+from typer.core import TyperGroup
 
-from ..plots.style import plain
+from ..plots.style import save_picture as save_picture
 from ..scenes.error import SceneError
 from ..systems.extras import require
-from ..systems.units import SPEEDS
+from ..systems.units import SPEED_UNITS
 from . import MEANING, ExitCode
 
 Arguments = ParamSpec("Arguments")
@@ -56,6 +57,10 @@ USE: dict[str, tuple[str, str]] = {
         "the results (--out, or STUDY.csv in the current folder) and the picture given by --plot; RESULTS.partial "
         "while it computes, or if it is interrupted",
     ),
+    "import": (
+        'revchain import examples/models/acrobat.xml --ignore "friction range" --out acrobat.toml',
+        "the scene given by --out, or FILE.toml in the current folder; existing files only with --force",
+    ),
     "validate": ("revchain validate examples/scenes/watch_chain.toml", "none"),
     "new": ("revchain new crane.toml", "FILE, or scene.toml (study.toml with --study); existing files only with --force"),
     "schema": ("revchain schema", "none"),
@@ -63,6 +68,7 @@ USE: dict[str, tuple[str, str]] = {
 NEVER = {  # exit codes that a command does not have
     "validate": {ExitCode.TOLERANCE_NOT_MET},
     "new": {ExitCode.TOLERANCE_NOT_MET, ExitCode.SCENE_INVALID},
+    "import": {ExitCode.TOLERANCE_NOT_MET},
     "schema": {ExitCode.TOLERANCE_NOT_MET, ExitCode.SCENE_INVALID},
 }
 
@@ -79,12 +85,27 @@ def epilog(command: str) -> str:
     return f"Example: [b]{example}[/b]\n\nFiles written: {files}.\n\nExit codes: {codes}."
 
 
+class Commands(TyperGroup):
+    """The commands; a scene file in the place of one means `run`."""
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        word = args[0]
+        is_scene = word not in self.commands and (word.lower().endswith((".toml", ".json")) or Path(word).is_file())
+        return super().resolve_command(ctx, ["run", *args] if is_scene else args)
+
+
+_WHAT = (
+    "Whirl speeds and shapes of hanging chains, with error bounds. [b]revchain new[/b] writes a scene to begin with; "
+    "[b]revchain SCENE[/b] means [b]revchain run SCENE[/b]."
+)
 app = typer.Typer(
+    cls=Commands,
     add_completion=True,
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     rich_markup_mode="rich",
-    help="Whirl speeds and shapes of hanging chains, with error bounds.",
+    subcommand_metavar="COMMAND [ARGS]... | SCENE",
+    help=_WHAT,
     epilog=EXIT_CODES,
 )
 
@@ -141,7 +162,7 @@ def show_version(wanted: bool) -> None:
         raise typer.Exit
 
 
-@app.callback()
+@app.callback(help=_WHAT)
 def common(
     version: Annotated[
         bool, typer.Option("--version", callback=show_version, is_eager=True, help="Print the version and exit.")
@@ -155,12 +176,6 @@ def common(
         raise typer.BadParameter("--cmake-prefix must be the only argument")
 
 
-def save_picture(axes: Any, title: str, path: Path) -> None:
-    """Write a picture with its title."""
-    axes.set_title(plain(title), wrap=True)
-    axes.figure.savefig(path, dpi=200)
-
-
 Speed = Annotated[
     str | None,
     typer.Option(metavar="rad/s|rpm|Hz|s", help="Unit of speeds in tables and pictures; files have rad/s."),
@@ -169,8 +184,8 @@ Speed = Annotated[
 
 def check_speed(speed: str | None) -> None:
     """Check the unit of the option --speed."""
-    if speed is not None and speed not in SPEEDS:
-        raise Stop(f"--speed: must be one of {', '.join(SPEEDS)}, got {speed}", ExitCode.WRONG_USAGE)
+    if speed is not None and speed not in SPEED_UNITS:
+        raise Stop(f"--speed: must be one of {', '.join(SPEED_UNITS)}, got {speed}", ExitCode.WRONG_USAGE)
 
 
 def checked_picture(plot: Path) -> None:
@@ -188,9 +203,11 @@ def outputs_of(scene: Path, plot: Path | None, json: str | None, csv: str | None
     if plot is not None:
         checked_picture(plot)
         outputs.append((plot, plot.suffix.lower()))
-    files = [path.resolve() for path, _ in outputs]
-    if len(set(files)) < len(files):
-        raise Stop("two outputs have the same name", ExitCode.WRONG_USAGE)
-    if scene.resolve() in files:
-        raise Stop(f"{scene}: the scene itself would be overwritten", ExitCode.WRONG_USAGE)
+    seen = {scene.resolve(): ""}
+    for path, kind in outputs:
+        name = f"--{kind[1:]}" if kind in (".json", ".csv") else "--plot"
+        if (before := seen.setdefault(path.resolve(), name)) == "":
+            raise Stop(f"{name}: {scene}: the scene itself would be overwritten", ExitCode.WRONG_USAGE)
+        if before != name:
+            raise Stop(f"{before} and {name}: two outputs have the same name, {path}", ExitCode.WRONG_USAGE)
     return outputs

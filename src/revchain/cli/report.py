@@ -12,6 +12,7 @@ from textwrap import fill
 from typing import Any
 
 import msgspec
+from msgspec import UnsetType
 import numpy as np
 from rich import box
 from rich.console import Console
@@ -35,12 +36,15 @@ MANY_TIMES = 12
 class Report:
     """The answer to one question of a scene: as text, JSON, CSV and picture."""
 
-    def __init__(self, scene: Scene, stem: str, found: Any, units: str) -> None:
+    def __init__(self, scene: Scene, stem: str, found: Any, units: str, count: int | str | None = None) -> None:
         self.scene = scene
         self.title = scene.title or stem
         self.system = scene.system().describe()
         self.found = found
         self.units = units
+        if count is None and isinstance(found, Modes) and not isinstance(scene.ask.modes, UnsetType):
+            count = scene.ask.modes.count  # type: ignore[assignment]
+        self.asked = count if isinstance(count, int) and isinstance(found, Modes) else 0
         self.sheet: Sheet = found._printed()
 
     @cached_property
@@ -51,6 +55,8 @@ class Report:
             part = getattr(self.found, name, None)
             if part is not None and (name != "other" or len(part)):
                 sheets.append(part._sheet())
+        if getattr(self.found, "_stability", False):
+            sheets.append(self.found.stability_windows()._sheet(brief=True))
         if isinstance(self.found, Response) and self.found.angular_speed.size == 1:
             sheets.append(_pins(self.found))
         tables: list[tuple[Text | None, Table | None]] = []
@@ -74,7 +80,7 @@ class Report:
             what = f"no shape was found with {', '.join(map(str, missing))} half wave{'s' * (list(missing) != [1])}"
         if isinstance(self.found, Modes):
             what = "the tolerance is not met"
-            if self.found.rtol:
+            if self.found.rtol is not None:
                 what += f": asked {self.found.rtol:g}, reached {self.found.error_bound.max():.1e}"
         raise Stop(f"{path}: {what}", ExitCode.TOLERANCE_NOT_MET)
 
@@ -119,6 +125,11 @@ class Report:
             for part in (words, grid):
                 if part is not None:
                     console.print(part)
+        numbers: Any = self.sheet.columns[0].values if self.asked and self.sheet.good else []
+        if len(numbers) and self.asked > (there := numbers[-1] - numbers[0] + 1):
+            after = f" from number {numbers[0]} on" if numbers[0] > 1 else ""
+            only = f"there {'is' if there == 1 else 'are'} only {there}{after}"
+            console.print(Text(f"{self.asked} modes are asked for: {only}", style="yellow"))
         for note in self.sheet.notes:
             if "links[" in note:
                 bodies = self.scene._bodies()

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ..plots.modes import MOST_SHAPES, Straight, floating, rods_of, rows_of
-from ..plots.shapes import words_of
+from ..plots.branches import words_of
 from ..plots.forms import form_of
 from ..plots.style import CAPTION_UNITS, MOST_PINS_AS_DOTS, thinned, with_speeds
 from ..results.base import Listed

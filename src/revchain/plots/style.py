@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Collection, Iterable
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,7 +13,7 @@ import numpy as np
 from ..results.sheet import in_unit
 from ..systems.extras import require
 from ..systems.numbers import Numbers, integer, listed, shown, word
-from ..systems.units import SPEEDS
+from ..systems.units import SPEED_UNITS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -38,7 +39,6 @@ STYLE: dict[Any, Any] = {
 AXIS: dict[str, Any] = {"color": "0.6", "linestyle": "-.", "linewidth": 0.9, "zorder": 1}
 """The line of the axis about which a system turns."""
 
-SPEED_UNITS = SPEEDS
 WIDEST = 8.0  # inches, of a new figure
 MINUS = "\N{MINUS SIGN}"
 MOST_PINS_AS_DOTS = 40
@@ -58,8 +58,8 @@ class SpeedUnit:
 
     def __init__(self, caller: str, unit: str | None, found: Any = None, usual: str = "rad/s") -> None:
         chosen = getattr(found, "_speed_unit", None) or usual if unit is None else unit
-        self.unit = word(caller, "speed", chosen, SPEEDS)
-        self.quantity = SPEEDS[chosen][0]
+        self.unit = word(caller, "speed", chosen, SPEED_UNITS)
+        self.quantity = SPEED_UNITS[chosen][0]
 
     @property
     def label(self) -> str:
@@ -138,6 +138,12 @@ def legend_outside(ax: Axes, **more: Any) -> None:
 def plain(text: str) -> str:
     """Return `text` for matplotlib, which would read what is between two $ as mathematics."""
     return text.replace("$", r"\$")
+
+
+def save_picture(axes: Any, title: str, path: Path) -> None:
+    """Write a picture with its title."""
+    axes.set_title(plain(title), wrap=True)
+    axes.figure.savefig(path, dpi=200)
 
 
 def thinned(curve: Numbers) -> np.ndarray[tuple[int], np.dtype[np.intp]]:

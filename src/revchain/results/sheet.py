@@ -12,7 +12,7 @@ import numpy as np
 
 from ..systems.extras import require
 from ..systems.numbers import Numbers
-from ..systems.units import SPEEDS
+from ..systems.units import SPEED_UNITS
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -117,14 +117,14 @@ def speed_columns(speed: Any, digits: int = 6) -> list[Column]:
 
 
 def in_speed_unit(sheet: Sheet, unit: str | None) -> Sheet:
-    """The sheet with its printed speeds in a unit of `units.SPEEDS`; the same sheet for None.
+    """The sheet with its printed speeds in a unit of `units.SPEED_UNITS`; the same sheet for None.
 
     Columns keep their names and values; only the headings and what is printed change. A column that would be printed
     twice, or that has the speed in rpm beside, is not printed.
     """
     if unit is None:
         return sheet
-    quantity = SPEEDS[unit][0]
+    quantity = SPEED_UNITS[unit][0]
     columns, speeds = [], None
     for column in sheet.columns:
         heading = column.heading
@@ -148,8 +148,8 @@ def _is_period(column: Column, speeds: Any) -> bool:
 
 
 def in_unit(speed: Any, unit: str) -> Any:
-    """A speed in rad/s, or an array of them, in a unit of `units.SPEEDS`; periods have the sign of the speed."""
-    per_radian = SPEEDS[unit][1]
+    """A speed in rad/s, or an array of them, in a unit of `units.SPEED_UNITS`; periods have the sign of the speed."""
+    per_radian = SPEED_UNITS[unit][1]
     if unit != "s":
         return per_radian * speed
     with np.errstate(divide="ignore"):

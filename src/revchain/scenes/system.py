@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import accumulate
 from typing import Any
 
@@ -24,9 +24,15 @@ from .error import Problem, SceneError
 from .parse import without_consequences, written
 from .tables import MOST_LINKS, SYSTEMS, Link, Links, Spread, Table, Tables, number_fields
 
+MOST = 1e100  # largest number of a scene, in SI units: products of a few numbers stay within the range of double
 Whirling = Chain | Rig | Cord | Held
 System = Whirling | SleeveGovernor
 Given = dict[str, Any]
+
+
+def option(key: str) -> str:
+    """The option of a command that stands for a key of a question."""
+    return f"--{key.replace('_', '-')}"
 
 
 class Numbers:
@@ -36,16 +42,20 @@ class Numbers:
     masses, else they are multiplied by gravity.
     """
 
-    def __init__(self, source: str, table: str = "", *, gravity: float = 1.0, by_mass: bool = True) -> None:
+    def __init__(
+        self, source: str, table: str = "", *, gravity: float = 1.0, by_mass: bool = True, options: bool = False
+    ) -> None:
         self.source = source
         self.table = table
         self.problems: list[Problem] = []
         self.gravity = gravity
         self.by_mass = by_mass
+        self.options = options  # whether a command asks, whose options stand for the keys of its table
 
     def of(self, table: str) -> Numbers:
         """The numbers of a table inside this one; errors are noted together."""
-        inside = Numbers(self.source, f"{self.table}.{table}".lstrip("."), gravity=self.gravity, by_mass=self.by_mass)
+        name = f"{self.table}.{table}".lstrip(".")
+        inside = Numbers(self.source, name, gravity=self.gravity, by_mass=self.by_mass, options=self.options)
         inside.problems = self.problems
         return inside
 
@@ -54,9 +64,23 @@ class Numbers:
         """The key of a weight: ``mass`` or ``weight``."""
         return "mass" if self.by_mass else "weight"
 
+    def named(self, key: str, value: str = "") -> str:
+        """A key as the user writes it, also with a value: the key of a file, or the option of a command."""
+        name = option(key) if self.options else key
+        return name + (f"{' ' if self.options else ' = '}{value}" if value else "")
+
     def refuse(self, key: str, reason: str) -> None:
         """Note an error of a key of this table."""
         self.problems.append(Problem(0, 0, f"{self.table}.{key}".strip("."), reason))
+
+    def refuse_as(self, error: ValueError, names: Iterable[str]) -> None:
+        """Note an error of a function: of the key among `names` with which its sentence begins, or else of this table."""
+        reason = without_function(error)
+        for name in names:
+            for words in (f"{name} ", f"{name} ".replace("_", " ")):
+                if reason.startswith(words):
+                    return self.refuse(name, reason.removeprefix(words))
+        self.refuse("", reason)
 
     def done(self) -> None:
         """Raise a SceneError if an error was noted."""
@@ -79,13 +103,18 @@ class Numbers:
             must = "be positive"
         elif sign == "not negative" and not number >= 0:
             must = "not be negative"
+        elif finite and number and not 1 / MOST <= abs(number) <= MOST:
+            must = f"be {'' if sign == 'positive' else '0 or '}from {1 / MOST:g} to {MOST:g} in size, in SI units"
         else:
             return number
         self.refuse(key, f"must {must}, got {written(given)}")
         return math.nan
 
-    def values(self, key: str, given: Any, sign: str) -> Any:
-        """The value of a key that is named as its quantity: a number, a pair, or an array from a list or a range."""
+    def values(self, key: str, given: Any, sign: str, ranges: bool = True) -> Any:
+        """The value of a key that is named as its quantity: a number, a pair, or an array from a list or a range.
+
+        `ranges` says whether a range is allowed.
+        """
         if isinstance(given, tuple):
             pair = [self.value(f"{key}[{k}]", end, key, sign, finite=False) for k, end in enumerate(given)]
             return tuple(sorted(pair) if _are_periods(key, given) else pair)  # a long period is a low speed
@@ -103,7 +132,8 @@ class Numbers:
                 return 1 / np.linspace(1 / first, 1 / last, given.steps)
             return (np.geomspace if given.log else np.linspace)(first, last, given.steps)
         if isinstance(given, str) and (words := re.fullmatch(r"(\S.*?)\s+to\s+(.+)", given)):
-            self.refuse(key, f'a range is written {{from = "{words[1]}", to = "{words[2]}"}}, got "{given}"')
+            range_ = f'a range is written {{from = "{words[1]}", to = "{words[2]}"}}'
+            self.refuse(key, f'{range_ if ranges else "must be one number, not a range"}, got "{given}"')
             return math.nan
         return self.value(key, given, key, sign)
 
@@ -198,13 +228,7 @@ def _governor(scene: Tables, table: tables.Governor, numbers: Numbers) -> Sleeve
     try:
         return SleeveGovernor(**given, balls=table.balls, gravity=numbers.gravity)
     except ValueError as error:
-        reason = without_function(error)
-        for name in given:
-            for words in (f"{name} ", f"{name} ".replace("_", " ")):
-                if reason.startswith(words):
-                    numbers.of("governor").refuse(name, reason.removeprefix(words))
-                    return None
-        numbers.refuse("governor", reason)
+        numbers.of("governor").refuse_as(error, given)
         return None
 
 
@@ -213,7 +237,12 @@ def _whole(table: tables.Whole, numbers: Numbers) -> Chain | Cord | None:
     given = numbers.read(table)
     particles: list[Given] = []
     if isinstance(table, tables.Cord) and table.masses is not UNSET:
-        particles = [numbers.of(f"masses[{k}]").read(each) for k, each in enumerate(table.masses)]
+        for k, each in enumerate(table.masses):
+            inside = numbers.of(f"masses[{k}]")
+            particles.append(inside.read(each))
+            if particles[-1]["arc_length"] >= given["length"]:
+                end = f"must be below the length of the cord, {given['length']:g}"
+                inside.refuse("arc_length", f"{end}, got {written(each.arc_length)}")
     if numbers.problems or math.isnan(sum(given.values()) + sum(sum(each.values()) for each in particles)):
         return None
     try:
@@ -228,7 +257,7 @@ def _whole(table: tables.Whole, numbers: Numbers) -> Chain | Cord | None:
             chain = (Chain.uniform_rods if table.kind == "rods" else Chain.uniform_plummets)(table.count, **given)
         return chain.with_body(**{numbers.heavy: tip}) if tip else chain
     except ValueError as error:
-        numbers.problems.append(problem_of(error, numbers.table))
+        numbers.refuse_as(error, given)
         return None
 
 
@@ -447,6 +476,8 @@ def in_file(sentence: str, links: Links) -> str:
 def problem_of(error: ValueError, key: str, links: Sequence[tuple[int, Link]] = ()) -> Problem:
     """An error of the core as a problem of the file, with the key of the link that it names, or else with `key`."""
     sentence = in_file(without_function(error), list(links))
-    if links and sentence.startswith("links[") and ": " in sentence:
-        key, _, sentence = sentence.partition(": ")
+    sentence = re.sub(r"; links, got \d+$", "", sentence)  # their number says nothing here
+    sentence = re.sub(r"(; (?:its radius is|it has)), got", r"\1", sentence)
+    if links and (said := re.match(r"(links\[\d+\](?: \(\".*?\"\))?): ", sentence)):
+        key, sentence = said[1], sentence[said.end() :]
     return Problem(0, 0, key, sentence)

@@ -387,7 +387,13 @@ class Chain(System):
         heavy = like(caller, self, mass, weight)
         body = real(caller, "mass" if self.by_mass else "weight", heavy)
         at, radius = integer(caller, "pin", pin), real(caller, "radius_of_gyration", radius_of_gyration)
-        made = checked(caller, self.by_mass, _core.with_weight, compiled(caller, self), body, at, radius)
+        try:
+            made = checked(caller, self.by_mass, _core.with_weight, compiled(caller, self), body, at, radius)
+        except ValueError as error:
+            if radius or "radius of gyration" not in str(error):
+                raise
+            name = "mass" if self.by_mass else "weight"
+            raise ValueError(f"{caller}: {name} is too far from that of the link above pin {at}, got {body:g}") from None
         return self._wrap(made, self.by_mass, self._names, self.order)
 
     def with_thread(self, length: float, pin: int) -> Chain:

@@ -63,16 +63,21 @@ _NAMES = {
 }
 SI = {name: (_KINDS[kind][0], kind, _KINDS[kind][1]) for kind, names in _NAMES.items() for name in names.split()}
 """SI unit, kind and an example of each quantity."""
+SPEED_UNITS = {
+    "rad/s": ("speed", 1.0),
+    "rpm": ("speed", 30 / math.pi),
+    "Hz": ("frequency", 0.5 / math.pi),
+    "s": ("period", 2 * math.pi),
+}
+"""Units in which speeds are shown: what is measured in each, and the number of the unit for 1 rad/s."""
 
-SPEEDS = {"rad/s": ("speed", 1.0), "rpm": ("speed", 30 / math.pi), "Hz": ("frequency", 0.5 / math.pi), "s": ("period", 2 * math.pi)}
-"""The four ways to say a speed: what is measured in the unit, and its number for 1 rad/s. A period is that over the speed."""
 _TURNS = {"1/min": "rpm", "/min": "rpm", "min^-1": "rpm", "min**-1": "rpm"}  # nameplates have turns in them
 _UNCLEAR = ("1/s", "/s", "s^-1", "s**-1")
 _TOLERANCE = re.compile(r"\(?\s*(.*?)\s*(?:±|\+\s*/?\s*-)\s*([^()]*?)\s*(?:\)\s*(.*))?")
 
 
 def speed_unit(value: Any) -> str | None:
-    """The way of `SPEEDS` in which a value says a speed: text, a quantity of pint, or the first of them in a list.
+    """The way of `SPEED_UNITS` in which a value says a speed: text, a quantity of pint, or the first of them in a list.
 
     It is None for numbers and for any other unit.
     """
