@@ -185,7 +185,8 @@ Speed = Annotated[
 def check_speed(speed: str | None) -> None:
     """Check the unit of the option --speed."""
     if speed is not None and speed not in SPEED_UNITS:
-        raise Stop(f"--speed: must be one of {', '.join(SPEED_UNITS)}, got {speed}", ExitCode.WRONG_USAGE)
+        sentence = f"must be one of {', '.join(SPEED_UNITS)}, the unit of speeds in tables, got {speed}"
+        raise Stop(f"--speed: {sentence}; give a speed by --angular-speed or --max-angular-speed", ExitCode.WRONG_USAGE)
 
 
 def checked_picture(plot: Path) -> None:
