@@ -14,8 +14,8 @@ Questions
     conical_heights for many chains at once
 Results
     Modes, SteadyShapes, SteadyShape, Branches, Branch,
-    Stability, ForceDiagram, Response, Swing, Campbell, DragShape, Tuned, Fitted, Explanation, Sensitivity, Uncertainty; ``load`` reads the
-    files that their method ``save`` wrote. Variants of these, and classes of their fields, are in the reference.
+    Stability, ForceDiagram, Response, Swing, Campbell, DragShape, Tuned, Fitted, Explanation, Sensitivity, Uncertainty, WorstCase;
+    ``load`` reads the files that their method ``save`` wrote. Variants of these, and classes of their fields, are in the reference.
 Closed forms
     conical_pendulum, plummet, two_links, elliptic, hoop, bell_and_clapper, funicular_polygon, transverse_modes,
     recurrence_matrices; BellAndClapper, BufferImpact, GovernorMotion, SleeveGovernor, GyrostaticString, SkippingRope, TortuousRope,
@@ -76,6 +76,7 @@ from .results.motions import Response as Response
 from .results.motions import Swing as Swing
 from .results.sensitivity import Sensitivity as Sensitivity
 from .results.sensitivity import Uncertainty as Uncertainty
+from .results.worst import WorstCase as WorstCase
 from .results.shapes import Stability as Stability
 from .results.shapes import SteadyShape as SteadyShape
 from .results.shapes import SteadyShapes as SteadyShapes

@@ -62,8 +62,9 @@ def test_tables_files_pictures(tmp_path):
         assert rc.load(tmp_path / name) == found
     assert found.to_dict()["speeds"][0]["rpm"] == found.rpm[0]
     assert found.plot(speed="Hz").get_xlabel() == "frequency (Hz)"
-    with pytest.raises(ValueError, match='must be "rpm", "rad/s" or "Hz"'):
-        found.plot(speed="s")
+    assert found.plot(speed="s").get_xlabel() == "period (s)"
+    with pytest.raises(ValueError, match="speed must be one of rad/s, rpm, Hz, s, got 'min'"):
+        found.plot(speed="min")
 
 
 def test_an_order_listed_twice_counts_once():

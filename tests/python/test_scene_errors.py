@@ -65,7 +65,7 @@ FILES = {
     "rpm of a wheel": (LINK + "flywheel = {mass = 1, radius_of_gyration = 1, rpm = 60}\n", '4:1 links[0].flywheel.spin: is missing\n4:47 links[0].flywheel.rpm: unknown key; write spin = "60 rpm"'),
     "a range in words": (LINK + '[ask.response]\nangular_speed = "1 to 60 rpm"\n', '5:1 ask.response.angular_speed: a range is written {from = "1", to = "60 rpm"}, got "1 to 60 rpm"'),
     "tension in kilograms": (LINK + '[held]\ntension = "2 kg"\n', '5:1 held.tension: must be a force such as "20 N", got "2 kg"'),
-    "a key in quotes": ('"links[0].mass" = 3\n' + LINK, '1:1 "links[0].mass": unknown key; known keys: schema_version, title, description, gravity, order, links, uniform_chain, tapered_chain, cord, governor, support, fluid, held, ask'),
+    "a key in quotes": ('"links[0].mass" = 3\n' + LINK, '1:1 "links[0].mass": unknown key; known keys: schema_version, title, description, gravity, order, links, uniform_chain, tapered_chain, cord, governor, support, speed, fluid, held, ask'),
     "[[link]]": ("[[link]]\nmass = 1\nlength = 1\n", "1:1 link: unknown key; did you mean [[links]]?"),
     "[[support]]": (LINK + "[[support]]\nradius = 1\n", "4:1 support: is one table: write [support], with one pair of brackets"),
     "lenght": ("[[links]]\nmass = 1\nlenght = 1\n", "1:1 links[0].length: is missing\n3:1 links[0].lenght: unknown key; did you mean length?"),

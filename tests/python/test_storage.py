@@ -65,6 +65,8 @@ RESULTS = {  # every kind of result, made when a test asks for it
     "Sensitivity of a shape of a rig": lambda: of("SteadyShape of a carousel").sensitivity,
     "Sensitivity of offsets of a rig": lambda: of("SteadyShape of a carousel").sensitivity.offset,
     "Uncertainty": lambda: of("Modes").uncertainty(weight=0.1),
+    "WorstCase": lambda: rc.modes(THREE).uncertainty(weight="3 %", worst=True).worst,
+    "Uncertainty with its worst case": lambda: rc.modes(THREE).uncertainty(weight="3 %", worst=True),
     "Modes of a rig": lambda: rc.modes(rc.Rig(CHAIN, flywheels=rc.Flywheel(momentum=0.2), support=SPRING)),
     "Sensitivity of a rig": lambda: of("Modes of a rig").sensitivity,
     "Uncertainty of a rig": lambda: of("Modes of a rig").uncertainty(weight=0.1, stiffness="3 %"),

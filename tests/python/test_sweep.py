@@ -792,7 +792,7 @@ def test_round_trip():
 
 def test_the_schema():
     schema = study_schema()
-    assert set(schema["$defs"]) == {"Study", "Vary", *json_schema()["$defs"]}
+    assert set(schema["$defs"]) == {"Study", "Vary", "Scatter", *json_schema()["$defs"]}
     for kind in (Study, Vary):
         table = schema["$defs"][kind.__name__]
         assert set(table["properties"]) == {

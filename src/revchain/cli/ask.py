@@ -25,7 +25,7 @@ from ..scenes.system import Numbers, System, option
 from ..systems.extras import require
 from ..systems.units import PATTERN
 from . import ExitCode
-from .frame import STDOUT, Stop, app, epilog, guarded, outputs_of
+from .frame import STDOUT, Speed, Stop, app, check_speed, epilog, guarded, outputs_of
 from .progress import watched
 from .report import Report
 
@@ -40,6 +40,7 @@ Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print no table and n
 COMMON: dict[str, tuple[Any, Any]] = {
     "gravity": (Gravity, None),
     "units": (Units, "deg"),
+    "speed": (Speed, None),
     "plot": (Annotated[Path | None, typer.Option(metavar="FILE", help="Picture: .png, .svg or .pdf.")], None),
     "json": (Annotated[str | None, typer.Option(metavar="FILE|-", help="All numbers as JSON; - is stdout.")], None),
     "csv": (Annotated[str | None, typer.Option(metavar="FILE|-", help="All numbers as CSV; - is stdout.")], None),
@@ -56,10 +57,11 @@ def run(
     ] = None,
     gravity: Gravity = None,
     units: Units = "deg",
+    speed: Speed = None,
     quiet: Quiet = False,
 ) -> None:
     """Answer all questions of a scene; find its modes (of a governor its equilibria) if it has none."""
-    checked, folder = read_scene(scene, gravity, units), Path("out", scene.stem) if out is None else out
+    checked, folder = read_scene(scene, gravity, units, speed), Path("out", scene.stem) if out is None else out
     kinds = [".txt", ".json", ".csv", ".png"]
     try:
         require("matplotlib", "plot", "the picture")
@@ -89,7 +91,7 @@ def _command(question: str, table: type[Table], summary: str) -> None:
     def command(scene: Path, **given: Any) -> None:
         common = {name: given.pop(name) for name in COMMON if name in given}
         changed = {name: _meant(field, given[name]) for name, field in fields.items() if given[name] is not None}
-        checked = read_scene(scene, common["gravity"], common["units"])
+        checked = read_scene(scene, common["gravity"], common["units"], common["speed"])
         outputs = outputs_of(scene, common.get("plot"), common["json"], common["csv"])
         report = _answer(scene, checked, question, changed, outputs, common["units"], common["quiet"])
         if STDOUT in (common["json"], common["csv"]):
@@ -180,17 +182,19 @@ def _number(text: str) -> Any:
     return text.strip()
 
 
-def read_scene(path: Path, gravity: str | None, units: str) -> Scene:
-    """The scene, with another gravity if one is given."""
+def read_scene(path: Path, gravity: str | None, units: str, speed: str | None = None) -> Scene:
+    """The scene, with another gravity or unit of speeds if one is given."""
     if units not in ("deg", "rad"):
         raise Stop(f"--units: must be deg or rad, the unit of angles, got {units}", ExitCode.WRONG_USAGE)
+    check_speed(speed)
+    changed = {} if speed is None else {"speed": speed}
     if gravity is None:
-        return load_scene(path)
+        return read(path, changed) if changed else load_scene(path)
     numbers = Numbers("scene")
     numbers.value("gravity", _number(gravity), "gravity", "positive")
     if numbers.problems:
         raise Stop(f"--gravity: {numbers.problems[0].reason}", ExitCode.WRONG_USAGE)
-    return read(path, {"gravity": _number(gravity)})
+    return read(path, {"gravity": _number(gravity), **changed})
 
 
 def _answer(

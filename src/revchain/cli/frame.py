@@ -16,6 +16,7 @@ from typer.core import TyperGroup
 from ..plots.style import save_picture as save_picture
 from ..scenes.error import SceneError
 from ..systems.extras import require
+from ..systems.units import SPEED_UNITS
 from . import MEANING, ExitCode
 
 Arguments = ParamSpec("Arguments")
@@ -173,6 +174,19 @@ def common(
     """Whirl speeds and shapes of hanging chains, with error bounds."""
     if cmake_prefix:  # alone it is answered by __main__, which does not need typer
         raise typer.BadParameter("--cmake-prefix must be the only argument")
+
+
+Speed = Annotated[
+    str | None,
+    typer.Option(metavar="rad/s|rpm|Hz|s", help="Unit of speeds in tables and pictures; files have rad/s."),
+]
+
+
+def check_speed(speed: str | None) -> None:
+    """Check the unit of the option --speed."""
+    if speed is not None and speed not in SPEED_UNITS:
+        sentence = f"must be one of {', '.join(SPEED_UNITS)}, the unit of speeds in tables, got {speed}"
+        raise Stop(f"--speed: {sentence}; give a speed by --angular-speed or --max-angular-speed", ExitCode.WRONG_USAGE)
 
 
 def checked_picture(plot: Path) -> None:

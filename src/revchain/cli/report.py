@@ -45,7 +45,7 @@ class Report:
         if count is None and isinstance(found, Modes) and not isinstance(scene.ask.modes, UnsetType):
             count = scene.ask.modes.count  # type: ignore[assignment]
         self.asked = count if isinstance(count, int) and isinstance(found, Modes) else 0
-        self.sheet: Sheet = found._sheet(brief=True)
+        self.sheet: Sheet = found._printed()
 
     @cached_property
     def tables(self) -> list[tuple[Text | None, Table | None]]:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 import time
 import warnings
@@ -15,14 +16,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 import typer
 
-from ..plots.sweep import plot_sweep, why_not_drawn
+from ..plots.sweep import in_speed_unit, plot_sweep, why_not_drawn
 from ..results.files import written_aside
-from ..studies.plan import columns_of
+from ..studies.plan import columns_of, said
 from ..studies.study import Study, load_study
 from ..studies.sweep import check_ending, columns
 from ..studies.sweep import sweep as compute
 from . import ExitCode
-from .frame import Stop, app, checked_picture, epilog, guarded, save_picture
+from .frame import Speed, Stop, app, check_speed, checked_picture, epilog, guarded, save_picture
 from .progress import counted
 
 if TYPE_CHECKING:
@@ -45,6 +46,7 @@ def sweep(
     plot: Annotated[Path | None, typer.Option(metavar="FILE", help="Picture: .png, .svg or .pdf.")] = None,
     workers: Annotated[int | None, typer.Option(metavar="K", min=1, help="Number of threads or processes.")] = None,
     processes: Annotated[bool, typer.Option("--processes", help="Use processes instead of threads.")] = False,
+    speed: Speed = None,
     chunk: Annotated[
         int | None, typer.Option(metavar="K", min=1, help="Number of points computed and stored together.")
     ] = None,
@@ -53,6 +55,7 @@ def sweep(
 ) -> None:
     """Compute many variations of a scene; an interrupted run continues where it stopped."""
     given = load_study(study)
+    check_speed(speed)
     if check:
         print("\n".join(_plan(given, str(study))))
         return
@@ -81,6 +84,8 @@ def sweep(
                 found = compute(given, out=out, executor=pool, workers=workers, chunk=chunk, progress=told)
         except KeyboardInterrupt:
             raise Stop(f"interrupted; repeat the command to continue from {out}.partial", ExitCode.INTERRUPTED) from None
+        if speed is not None:
+            found.attrs["speed_unit"] = speed
         if plot is not None:
             save_picture(plot_sweep(found), given.title or study.stem, picture)
     if not quiet:
@@ -102,16 +107,21 @@ def _plan(study: Study, source: str) -> list[str]:
             ends = [value if isinstance(value, str) else f"{value:g}" for value in axis.values[[0, -1]].tolist()]
             what = f"{axis.values.size:,} values, {ends[0]} to {ends[1]}"
         lines.append(f"  {axis.name}: {what}")
-    for output in plan.outputs.items():
-        names = columns_of(*output)
-        lines.append(f"  finds {' … '.join(dict.fromkeys([names[0], names[-1]]))}")
+    for name, labels in plan.outputs.items():
+        for stored in said(plan, name):
+            names = columns_of(stored, labels)
+            lines.append(f"  finds {' … '.join(dict.fromkeys([names[0], names[-1]]))}")
     return lines
 
 
 def _summary(found: Dataset) -> list[str]:
     """Lines with the range of each column of numbers."""
     lines: list[tuple[str, ...]] = [("column", "least", "median", "largest")]
-    for name, values in list(columns(found).items())[1:-1]:
+    unit = found.attrs.get("speed_unit")
+    speeds = [str(key) for key, array in found.variables.items() if array.attrs.get("units") == "rad/s"] if unit else []
+    for name, values in list(columns(in_speed_unit(found, unit)).items())[1:-1]:
+        if re.sub(r"_\d+$", "", name) in speeds or name in speeds:
+            name = f"{name} ({unit})"
         there: Any = values[np.isfinite(values)] if values.dtype.kind in "fi" else ()
         if len(there):
             lines.append((name, *(f"{number:.5g}" for number in (there.min(), np.median(there), there.max()))))

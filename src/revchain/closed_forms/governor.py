@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
 from ..results.base import Field, Listed, Result
-from ..results.sheet import Column, Sheet
+from ..results.sheet import Column, Sheet, speed_text
 from ..systems.numbers import STANDARD_GRAVITY, Floats, floats, numbers, one_positive, real
 from .solved import Solved
 from .table import FloatOrArray, described
@@ -123,7 +123,10 @@ class GovernorEquilibria(Result, Listed[GovernorPoints], row="point", title="{su
     def _words(self) -> str:
         count, speed = self.inclination.size, self.angular_speed
         what = f"{count} equilibri{'um' if count == 1 else 'a'}"
-        return f"{what} at {speed:#.6g} rad/s ({speed * 30 / math.pi:.2f} rpm), proved complete"
+        at = f"{speed:#.6g} rad/s ({speed * 30 / math.pi:.2f} rpm)"
+        if speed and self._speed_unit in ("Hz", "s"):
+            at = speed_text(speed, self._speed_unit)
+        return f"{what} at {at}, proved complete"
 
 
 def _speed(name: str) -> Any:

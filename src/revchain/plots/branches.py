@@ -80,7 +80,7 @@ def plot_branch(
     ax: Axes | None = None,
     *,
     quantity: str | None = None,
-    speed: str = "rad/s",
+    speed: str | None = None,
     stability: bool | None = None,
     frame: str = "free",
 ) -> Axes:
@@ -106,7 +106,7 @@ def plot_branches(
     ax: Axes | None = None,
     *,
     quantity: str | None = None,
-    speed: str = "rad/s",
+    speed: str | None = None,
     stability: bool | None = None,
     frame: str = "free",
 ) -> Axes:
@@ -141,13 +141,13 @@ def _draw(
     branches: Sequence[Branch],
     ax: Axes | None,
     quantity: str | None,
-    speed: str,
+    speed: str | None,
     stability: bool | None,
     frame: str,
     caller: str,
 ) -> Axes:
     """Draw a curve for each branch, in the styles of its stability, and mark folds and pitchforks."""
-    unit = SpeedUnit(caller, speed)
+    unit = SpeedUnit(caller, speed, branches[0] if len(branches) else branches)
     available = [name for name in QUANTITIES if not len(branches) or hasattr(branches[0], name)]
     if quantity is None:
         quantity = "largest_offset" if len(branches) and "tip_radius" not in available else "lowest_inclination"

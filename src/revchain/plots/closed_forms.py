@@ -164,13 +164,13 @@ def plot_funicular_polygon(
 
 
 @described(bound=True)
-def plot_skipping_rope(rope: SkippingRope, ax: Axes | None = None, *, speed: str = "rad/s") -> Axes:
+def plot_skipping_rope(rope: SkippingRope, ax: Axes | None = None, *, speed: str | None = None) -> Axes:
     """Draw the rope seen from the side.
 
     >>> rc.SkippingRope(span=2.0, length=3.0).plot().get_xlabel()
     'along the axis (m)'
     """
-    unit = SpeedUnit("revchain.SkippingRope.plot", speed)
+    unit = SpeedUnit("revchain.SkippingRope.plot", speed, rope)
     refuse_beyond_memory("revchain.SkippingRope.plot", "half_waves", rope.half_waves, 200 * BYTES)
     ax = axes_or_new(ax, 6.4, 4.0)
     points = rope.at_arc(np.linspace(0.0, rope.length, 200 * rope.half_waves + 1))
@@ -237,7 +237,7 @@ def plot_governor(motion: GovernorMotion, ax: Axes | None = None, *, duration: f
 
 
 @described(bound=True)
-def plot_sleeve_governor(governor: SleeveGovernor, ax: Axes | None = None, *, speed: str = "rpm") -> Axes:
+def plot_sleeve_governor(governor: SleeveGovernor, ax: Axes | None = None, *, speed: str | None = None) -> Axes:
     """Draw the lift of the sleeve against the speed, between the stops; grey: where friction holds it; dashed: unstable.
 
     >>> hartnell = rc.SleeveGovernor(ball_mass=1.5, arm=0.12, pivot_offset=0.12, sleeve_arm=0.06, sleeve_mass=2.0,
@@ -245,7 +245,7 @@ def plot_sleeve_governor(governor: SleeveGovernor, ax: Axes | None = None, *, sp
     >>> hartnell.plot().get_xlabel()
     'speed (rpm)'
     """
-    unit = SpeedUnit("revchain.SleeveGovernor.plot", speed)
+    unit = SpeedUnit("revchain.SleeveGovernor.plot", speed, governor, "rpm")
     ax = axes_or_new(ax, 6.4, 4.0)
     low, *_, high = governor._sheet().columns[0].values.tolist()
     at = governor.at(np.linspace(low, high, 300))
@@ -262,14 +262,14 @@ def plot_sleeve_governor(governor: SleeveGovernor, ax: Axes | None = None, *, sp
 
 
 @described(bound=True)
-def plot_governor_equilibria(found: GovernorEquilibria, ax: Axes | None = None, *, speed: str = "rpm") -> Axes:
+def plot_governor_equilibria(found: GovernorEquilibria, ax: Axes | None = None, *, speed: str | None = None) -> Axes:
     """Draw the curve of the governor with a dot at each equilibrium on it, hollow if it is unstable.
 
     >>> porter = rc.SleeveGovernor(ball_mass=2.3, arm=0.33, lower_arm=0.33, sleeve_mass=9.5122, gravity=9.81)
     >>> len(porter.equilibria("125 rpm").plot().lines) > len(porter.plot().lines)
     True
     """
-    unit = SpeedUnit("revchain.GovernorEquilibria.plot", speed)
+    unit = SpeedUnit("revchain.GovernorEquilibria.plot", speed, found, "rpm")
     ax = plot_sleeve_governor(found.governor, ax, speed=speed)
     given, at = found.governor._given, unit.of(found.angular_speed)
     ax.axvline(at, color="0.6", linewidth=0.9, zorder=0)
@@ -280,14 +280,14 @@ def plot_governor_equilibria(found: GovernorEquilibria, ax: Axes | None = None, 
 
 
 @described(bound=True)
-def plot_waves(string: GyrostaticString, ax: Axes | None = None, *, speed: str = "rad/s") -> Axes:
+def plot_waves(string: GyrostaticString, ax: Axes | None = None, *, speed: str | None = None) -> Axes:
     """Draw the speeds of circular waves in both directions against their phase.
 
     >>> string = rc.GyrostaticString(weight=9.80665, length=1.0, tension=100.0, momentum=1.0)
     >>> string.plot().get_xlabel()
     'phase difference between links (degrees)'
     """
-    unit = SpeedUnit("revchain.GyrostaticString.plot", speed)
+    unit = SpeedUnit("revchain.GyrostaticString.plot", speed, string)
     ax = axes_or_new(ax, 6.4, 4.0)
     phase = np.linspace(0.0, np.pi, 200)[1:]
     speeds = string.angular_speeds(phase)

@@ -332,7 +332,7 @@ def plot_modes(
     modes: Numbers of the modes to draw (for a rig, of both directions); the six slowest of this result if left out.
     carried: Response of the same system at one speed with all pins, drawn first, with its support on its circle.
     speed: Unit of the speeds: ``"rad/s"``, ``"rpm"``, ``"Hz"`` (turns per second) or ``"s"`` (the period). If left out,
-        each speed is written in rpm and as a period.
+        each speed is written in the unit of the question, or in rpm and as a period.
     raises: If `modes` has a number that is not in this result, the result is empty, or `carried` is not such a
         response.
 
@@ -341,7 +341,7 @@ def plot_modes(
     'depth below the support (m)'
     """
     caller, system = "revchain.Modes.plot", found.system
-    units = TIMED_UNITS if speed is None else [SpeedUnit(caller, speed)]
+    units = TIMED_UNITS if speed is None and found._speed_unit is None else [SpeedUnit(caller, speed, found)]
     if carried is not None and not isinstance(carried, Response):
         raise TypeError(f"{caller}: carried must be a revchain.Response, got {shown(carried)}")
     if carried is not None and (carried.system != system or carried.offset.shape != (system.size + 1,)):

@@ -27,7 +27,7 @@ MOST_MOMENTS = 5  # in a picture of shapes
 @described(bound=True)
 def plot_response(
     found: Response, ax: Axes | None = None, pins: Iterable[int] | None = None, *, resonances: bool = True,
-    speed: str = "rad/s",
+    speed: str | None = None,
 ) -> Axes:
     """Draw the distances of pins from the axis against the speed, on a logarithmic scale.
 
@@ -47,7 +47,7 @@ def plot_response(
     'frequency (Hz)'
     """
     caller = "revchain.Response.plot"
-    unit, rate = SpeedUnit(caller, speed), found.angular_speed.reshape(-1)
+    unit, rate = SpeedUnit(caller, speed, found), found.angular_speed.reshape(-1)
     available = np.atleast_1d(found.pins).tolist()
     if rate.size == 0:
         raise ValueError(f"{caller}: the response has no speed to draw; it needs at least one")
@@ -153,32 +153,37 @@ def plot_swing(
 
 
 @described(bound=True)
-def plot_campbell(found: Campbell, ax: Axes | None = None, *, speed: str = "rpm") -> Axes:
+def plot_campbell(found: Campbell, ax: Axes | None = None, *, speed: str | None = None) -> Axes:
     """Draw the frequencies against the speed, with its multiples and a dot at each crossing; red where the shape is unstable.
+
+    speed: Unit of speeds and frequencies: ``"rpm"``, ``"rad/s"``, ``"Hz"``, or ``"s"``, which draws periods against the period.
+        If left out, that of the question, or rpm.
 
     >>> import numpy as np
     >>> carousel = rc.Rig(rc.Chain(mass=80.0, length=4.0), support=rc.Support(radius=3.0))
     >>> rc.campbell(carousel, np.linspace(0.3, 1.5, 25)).plot().get_ylabel()
     'frequency (per minute)'
     """
-    unit = SpeedUnit("revchain.Campbell.plot", speed)
-    if unit.unit == "s":
-        raise ValueError('revchain.Campbell.plot: speed must be "rpm", "rad/s" or "Hz" in a Campbell diagram, got "s"')
+    unit = SpeedUnit("revchain.Campbell.plot", speed, found, "rpm")
     ax = beside_at_rest(found.system, ax, 7.0, 4.5)
     x, y = unit.of(found.angular_speed), unit.of(found.frequency)
+    periods = unit.unit == "s"
     for j in range(y.shape[1]):
         ax.plot(x, y[:, j], color=house(0), linewidth=1.4)
         ax.plot(x, np.where(found.stable, np.nan, y[:, j]), color=house(1), linewidth=1.4)
-    top = 1.15 * max([order * x[-1] for order in found.orders])
-    for order in found.orders:
-        ax.plot([0, x[-1]], [0, order * x[-1]], color="0.6", linewidth=0.9, zorder=0)
-        ax.annotate(f"{order}n", (x[-1], order * x[-1]), (3, 0), textcoords="offset points", va="center", color="0.4")
+    far = x.max()
+    heights = {order: far / order if periods else far * order for order in found.orders}
+    top = 1.15 * max(heights.values())
+    for order, height in heights.items():
+        ax.plot([0, far], [0, height], color="0.6", linewidth=0.9, zorder=0)
+        ax.annotate(f"{order}n", (far, height), (3, 0), textcoords="offset points", va="center", color="0.4")
     for one in found.crossings:
         at = unit.of(one.angular_speed)
-        ax.plot(at, one.order * at, "o", color="black", markersize=4)
-        ax.annotate(f"{at:.3g}", (at, one.order * at), (4, -4), textcoords="offset points", va="top")
-    per = {"rpm": "per minute", "Hz": "Hz", "rad/s": "rad/s"}[unit.unit]
-    ax.set(xlabel=unit.label, ylabel=f"frequency ({per})", ylim=(0, top), xlim=(0, 1.06 * x[-1]))
+        height = at / one.order if periods else one.order * at
+        ax.plot(at, height, "o", color="black", markersize=4)
+        ax.annotate(f"{at:.3g}", (at, height), (4, -4), textcoords="offset points", va="top")
+    per = {"rpm": "frequency (per minute)", "s": "period of the motion (s)"}.get(unit.unit, f"frequency ({unit.unit})")
+    ax.set(xlabel=unit.label, ylabel=per, ylim=(0, top), xlim=(0, 1.06 * far))
     return ax
 
 

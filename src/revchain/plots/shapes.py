@@ -22,26 +22,26 @@ if TYPE_CHECKING:
 
 
 @described(bound=True)
-def plot_shape(shape: SteadyShape, ax: Axes | None = None, *, speed: str = "rad/s") -> Axes:
+def plot_shape(shape: SteadyShape, ax: Axes | None = None, *, speed: str | None = None) -> Axes:
     """Draw the shape, true to scale.
 
     >>> ax = rc.steady_shapes(rc.Chain.uniform_plummets(3, length=1.0), conical_height=0.05)[0].plot()
     >>> ax.get_xlabel()
     'distance from axis (m)'
     """
-    at = SpeedUnit("revchain.SteadyShape.plot", speed).text(shape.angular_speed)
+    at = SpeedUnit("revchain.SteadyShape.plot", speed, shape).text(shape.angular_speed)
     return _draw_shapes([shape], ax, f"\n{at}")
 
 
 @described(bound=True)
-def plot_shapes(shapes: SteadyShapes, ax: Axes | None = None, *, speed: str = "rad/s") -> Axes:
+def plot_shapes(shapes: SteadyShapes, ax: Axes | None = None, *, speed: str | None = None) -> Axes:
     """Draw all shapes in one picture, true to scale, coloured by half waves.
 
     >>> ax = rc.steady_shapes(rc.Chain.uniform_plummets(3, length=1.0), conical_height=0.02).plot(speed="rpm")
     >>> ax.get_title(), ax.get_legend().get_title().get_text()
     ('5 hanging shapes, proved complete', 'at 211.5 rpm')
     """
-    unit = SpeedUnit("revchain.SteadyShapes.plot", speed)
+    unit = SpeedUnit("revchain.SteadyShapes.plot", speed, shapes)
     at = shapes.angular_speed if shapes else None
     ax = _draw_shapes(shapes, ax, title=None if at is None else f"at {unit.text(at)}")
     ax.set_title(shapes._how_many())

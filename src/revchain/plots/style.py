@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..results.sheet import in_unit
 from ..systems.extras import require
 from ..systems.numbers import Numbers, integer, listed, shown, word
 from ..systems.units import SPEED_UNITS
@@ -50,11 +51,15 @@ def house(number: int) -> str:
 
 
 class SpeedUnit:
-    """The unit in which a picture shows speeds, which are given to it in rad/s."""
+    """The unit in which a picture shows speeds, which are given to it in rad/s.
 
-    def __init__(self, caller: str, unit: str) -> None:
-        self.unit = word(caller, "speed", unit, SPEED_UNITS)
-        self.quantity, self.per_radian = SPEED_UNITS[unit]
+    If the caller chooses none, it is that in which the question was asked, or the usual one.
+    """
+
+    def __init__(self, caller: str, unit: str | None, found: Any = None, usual: str = "rad/s") -> None:
+        chosen = getattr(found, "_speed_unit", None) or usual if unit is None else unit
+        self.unit = word(caller, "speed", chosen, SPEED_UNITS)
+        self.quantity = SPEED_UNITS[chosen][0]
 
     @property
     def label(self) -> str:
@@ -63,10 +68,7 @@ class SpeedUnit:
 
     def of(self, speed: Any) -> Any:
         """Speeds in this unit. Those of backward rotation are negative, also as periods; that of rest is infinite."""
-        if self.unit != "s":
-            return speed * self.per_radian
-        with np.errstate(divide="ignore"):
-            return np.divide(self.per_radian, speed)
+        return in_unit(speed, self.unit)
 
     def text(self, speed: float) -> str:
         """A speed with its unit, such as ``36.99 rpm``; a period without the sign of its rotation."""

@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..systems.numbers import Floats, word
-from .style import WIDEST, axes_or_new, house, legend_outside, plain
+from .style import WIDEST, SpeedUnit, axes_or_new, house, legend_outside, plain
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -34,7 +35,7 @@ def _reason(kinds: dict[str, str]) -> str:
     return f"draws numbers, not words, and {words[0]} is one" if words else ""
 
 
-def plot_sweep(found: Dataset, name: str | None = None, ax: Axes | None = None) -> Axes:
+def plot_sweep(found: Dataset, name: str | None = None, ax: Axes | None = None, *, speed: str | None = None) -> Axes:
     """Draw a result of `revchain.sweep` against the varied numbers.
 
     One grid gives curves, two grids give a map of the first mode, and random numbers give histograms with percentiles.
@@ -48,6 +49,8 @@ def plot_sweep(found: Dataset, name: str | None = None, ax: Axes | None = None) 
         Name of the result; the first one if left out.
     ax : matplotlib.axes.Axes, optional
         Axes to draw in; a new figure if left out.
+    speed : {"rad/s", "rpm", "Hz", "s"}, optional
+        Unit of speeds on the axes; ``"s"`` draws periods. If left out, that of the scene or of its speeds, or rad/s.
 
     Returns
     -------
@@ -68,8 +71,13 @@ def plot_sweep(found: Dataset, name: str | None = None, ax: Axes | None = None) 
     >>> plot_sweep(found).get_xlabel()
     'links[0].length (m)'
     """
+    found = in_speed_unit(found, found.attrs.get("speed_unit") if speed is None else SpeedUnit("revchain.plot_sweep", speed).unit)
     points = found["status"].dims
-    results = [str(key) for key, array in found.data_vars.items() if "path" not in array.attrs and key != "status"]
+    results = [
+        str(key)
+        for key, array in found.data_vars.items()
+        if "path" not in array.attrs and key != "status" and set(points) <= set(array.dims)
+    ]
     name = word("revchain.plot_sweep", "name", results[0] if name is None else name, results)
     grids = [found[key] for key in points if key in found.coords]
     if reason := _reason({str(grid.name): grid.dtype.kind for grid in grids}):
@@ -78,7 +86,8 @@ def plot_sweep(found: Dataset, name: str | None = None, ax: Axes | None = None) 
     values = result.to_numpy().astype(float).reshape(*(found.sizes[key] for key in points), -1)[..., :MAX_CURVES]
     ax = axes_or_new(ax, WIDEST, 4.8)
     if not grids:
-        return _histograms(values, result, ax)
+        ends = ("lowest_angular_speed", "highest_angular_speed") if name.endswith("angular_speed") else ()
+        return _histograms(values, result, ax, [found[end].to_numpy() for end in ends if end in found])
     ax.set_xlabel(_label(grids[0]))
     if _is_log(grids[0]):
         ax.set_xscale("log")
@@ -92,6 +101,20 @@ def plot_sweep(found: Dataset, name: str | None = None, ax: Axes | None = None) 
     first = "" if len(result.dims) == len(points) else f", {_curve_labels(result)[0]}"
     ax.figure.colorbar(drawn, ax=ax, label=f"{'median of ' if random else ''}{_label(result)}{first}")
     return ax
+
+
+def in_speed_unit(found: Dataset, unit: str | None) -> Dataset:
+    """The results with their speeds in a unit of `units.SPEED_UNITS`; unchanged for None."""
+    if unit in (None, "rad/s"):
+        return found
+    speeds = [key for key, array in found.variables.items() if array.attrs.get("units") == "rad/s"]
+    said, changed = SpeedUnit("revchain.plot_sweep", unit), {}
+    for key in speeds:
+        array = found[key]
+        changed[key] = array.copy(data=said.of(array.to_numpy())).assign_attrs(units=unit)
+    return found.assign({key: array for key, array in changed.items() if key not in found.coords}).assign_coords(
+        {key: (array.dims, array.to_numpy(), array.attrs) for key, array in changed.items() if key in found.coords}
+    )
 
 
 def _curves(grid: DataArray, values: Floats, result: DataArray, random: bool, ax: Axes) -> Axes:
@@ -114,8 +137,8 @@ def _curves(grid: DataArray, values: Floats, result: DataArray, random: bool, ax
     return ax
 
 
-def _histograms(values: Floats, result: DataArray, ax: Axes) -> Axes:
-    """How each column scatters about its median."""
+def _histograms(values: Floats, result: DataArray, ax: Axes, ends: Sequence[Floats] = ()) -> Axes:
+    """How each column scatters about its median; dotted lines at its proved ends."""
     for k, label in enumerate(_curve_labels(result)):
         found = values[:, k][np.isfinite(values[:, k])]
         if found.size and (median := np.median(found)):
@@ -123,6 +146,10 @@ def _histograms(values: Floats, result: DataArray, ax: Axes) -> Axes:
             text = f"{label}: median {median:.4g}\n5 to 95 %: {low:.4g} to {high:.4g}"
             bins = min(max(found.size // 100, 10), 50)
             ax.hist(100 * (found / median - 1), bins, density=True, histtype="step", color=house(k), label=text)
+            for end in ends:
+                ax.axvline(100 * (end[k] / median - 1), color=house(k), linestyle=":")
+    if ends:
+        ax.plot([], [], ":", color="0.3", label="guaranteed worst case")
     ax.set(xlabel=f"{_label(result)}, % above its median", ylabel="fraction of points per %")
     if ax.has_data():
         legend_outside(ax)
@@ -141,6 +168,8 @@ def _curve_labels(result: DataArray) -> list[str]:
 def _label(array: DataArray) -> str:
     """The name and the unit of a result or of a varied number."""
     name = plain(str(array.name)) if "path" in array.attrs else str(array.name).replace("_", " ")
+    if array.attrs.get("units") == "s":
+        name = name.replace("angular speed", "period").replace("angular_speed", "period")
     return name + (f" ({array.attrs['units']})" if "units" in array.attrs else "")
 
 

@@ -16,6 +16,7 @@ from ..systems.held import Held
 from ..systems.numbers import STANDARD_GRAVITY, boolean, count, height_of, limit, one_positive, shown
 from ..systems.rig import Rig
 from ..systems.system import System
+from .asked import in_unit_of
 from .refuse import no_system
 from .shapes import compiled_system, require_span, rotation
 
@@ -25,6 +26,7 @@ MOST_LINKS = 10
 """Number of links of which `branches` follows all postures, 1024."""
 
 
+@in_unit_of("max_angular_speed")
 def branch(
     system: Chain | Rig | Cord | Held,
     mode: int,
@@ -111,6 +113,7 @@ def branch(
     return branch_made(found, system, g, turns)
 
 
+@in_unit_of("max_angular_speed")
 def branches(
     system: Chain | Rig | Cord | Held,
     *,

@@ -14,11 +14,14 @@ from ..results.shapes import is_driven
 from ..systems.chain import Chain, checked
 from ..systems.numbers import STANDARD_GRAVITY, integer, listed, one_positive, positive, shown
 from ..systems.rig import Rig
+from ..systems.units import has_units, speed_unit
+from .asked import in_unit_of
 from .refuse import refuse_other
 
 _CALLER = "revchain.campbell"
 
 
+@in_unit_of("angular_speed")
 def campbell(
     system: Chain | Rig,
     angular_speed: ArrayLike,
@@ -82,6 +85,8 @@ def campbell(
     """
     refuse_other(_CALLER, system, ("chain", "rig"), {"cord": "use its chain: cord.chain(100)", "held": "use steady_shapes and stability"})
     speeds = np.array(positive(_CALLER, "angular_speed", angular_speed))
+    if has_units(angular_speed) and speed_unit(angular_speed) == "s" and (np.diff(speeds) < 0).all():  # ascending periods are descending speeds
+        speeds = speeds[::-1]
     if speeds.ndim != 1 or speeds.size < 2 or (np.diff(speeds) <= 0).any():
         raise ValueError(f"{_CALLER}: angular_speed must be a list of at least two ascending speeds, got {shown(angular_speed)}")
     multiples = tuple(dict.fromkeys(integer(_CALLER, "orders", order) for order in listed(_CALLER, "orders", orders)))

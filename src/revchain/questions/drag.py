@@ -11,6 +11,7 @@ from ..systems.chain import Chain
 from ..systems.drag import Drag
 from ..systems.numbers import STANDARD_GRAVITY, count, floats, one_positive, real, shown
 from ..systems.rig import Rig
+from .asked import in_unit_of
 from .refuse import refuse_other
 
 _CALLER = "revchain.drag_shape"
@@ -19,6 +20,7 @@ _FASTEST = 1e100  # rad/s: the square of the speed, in the drag, stays finite
 _MOST_WAVES = 2**31 - 1  # what the compiled module can hold
 
 
+@in_unit_of("angular_speed")
 def drag_shape(
     system: Rig,
     drag: Drag,

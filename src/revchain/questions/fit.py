@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ..results.base import asked_in
 from ..results.fitted import Fitted
 
 from ..results.sensitivity import rig_derivatives
@@ -21,7 +22,7 @@ from ..systems.held import Held
 from ..systems.numbers import STANDARD_GRAVITY, Floats, Whole, integer, one_positive, real, shown
 from ..systems.rig import Rig
 from ..systems.system import System
-from ..systems.units import SI, has_units, in_si, unpacked
+from ..systems.units import SI, has_units, in_si, speed_unit, unpacked, with_tolerance
 from .modes import straight
 from .refuse import no_system
 from .speeds import Speeds, speeds
@@ -53,7 +54,8 @@ def fit(
     measured : dict
         Measured speed of each mode by its number, from 1 for the slowest; for a rig with flywheels -1 is the slowest
         backward mode. A speed is a number in rad/s, or text such as ``"0.5 Hz"``, ``"30 rpm"`` or a period ``"10.9 s"``. A
-        pair is a speed and its standard uncertainty, in the same unit or relative such as ``"1 %"``:
+        pair is a speed and its standard uncertainty, in the same unit or relative such as ``"1 %"``, also as one text
+        ``"10.9 s +- 0.1 s"``:
         ``{1: ("10.9 s", "0.1 s"), 2: (3.8, 0.05)}``. Give uncertainties for all speeds or for none. Without them all speeds
         have equal relative weight, and their uncertainty is estimated from the residuals.
     vary : str, list of str or dict
@@ -147,7 +149,8 @@ def fit(
             f"got {number.min()}"
         )
     model = _Model(system, data, number, speed, np.abs(speed if deviation is None else deviation), g)
-    return _fitted(model, *_least(model, np.array([_start(*each) for each in zip(data, starts, strict=True)])), deviation)
+    found = _fitted(model, *_least(model, np.array([_start(*each) for each in zip(data, starts, strict=True)])), deviation)
+    return asked_in(speed_unit(list(measured.values())), found)
 
 
 class _Model:
@@ -420,6 +423,8 @@ def _measurements(measured: Any) -> tuple[Whole, Floats, Floats | None]:
 def _measurement(number: int, value: Any) -> tuple[float, float | None]:
     """A speed and its uncertainty, both positive, in rad/s."""
     caller, spread = f"{_CALLER}: measured[{number}]", None
+    if isinstance(value, str) and (parts := with_tolerance(value)) is not None and parts[0]:
+        value = parts  # "2.01 s +- 0.02 s"
     if isinstance(value, np.ndarray):
         value = value.tolist()
     if isinstance(value, list | tuple):

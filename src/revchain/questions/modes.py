@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
+from ..results.base import asked_in
 from ..results.modes import Modes
 from ..systems.chain import Chain, compiled
 from ..systems.cord import Cord
@@ -18,6 +19,7 @@ from ..systems.numbers import STANDARD_GRAVITY, Floats, Whole, boolean, floats, 
 from ..systems.numbers import count as checked_count
 from ..systems.numbers import word as checked_word
 from ..systems.rig import Rig
+from ..systems.units import has_units, speed_unit
 from .refuse import no_system
 
 Pair = tuple[float, float]
@@ -217,7 +219,8 @@ def find_modes(
     find = _FIND.get(getattr(system, "_kind", ""))
     if find is None:
         raise no_system(_CALLER, system)
-    return find(system, _Asked(count, start, heights, window, rtol, g, method, precision, certify, shared, progress))
+    found = find(system, _Asked(count, start, heights, window, rtol, g, method, precision, certify, shared, progress))
+    return found if window is None else asked_in(speed_unit(angular_speed), found)
 
 
 def _of_chain(chain: Chain, asked: _Asked) -> Modes:
@@ -382,6 +385,8 @@ def _window(name: str, window: object) -> Pair:
     ends = [real(_CALLER, f"{name} (each end)", end) for end in window]
     if len(ends) != 2:
         raise ValueError(f"{_CALLER}: {name} must be a pair (low, high), got {shown(window)}")
+    if has_units(window) and speed_unit(window) == "s":  # a long period is a low speed
+        ends.sort()
     return ends[0], ends[1]
 
 

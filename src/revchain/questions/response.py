@@ -23,9 +23,11 @@ from ..systems.numbers import (
     shown,
 )
 from ..systems.rig import Rig
+from .asked import in_unit_of
 from .refuse import refuse_other
 
 
+@in_unit_of("angular_speed")
 def response(
     system: Chain | Rig,
     *,

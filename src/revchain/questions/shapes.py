@@ -16,6 +16,7 @@ from ..systems.numbers import STANDARD_GRAVITY, boolean, exactly_one, integer, l
 from ..systems.numbers import count as counted
 from ..systems.rig import Rig
 from ..systems.system import System
+from .asked import in_unit_of
 from .refuse import no_system
 
 LEAST, MOST = 1e-150, 1e150
@@ -24,6 +25,7 @@ MOST_HALF_WAVES = 1000
 BUDGET = {Chain: 3_000_000, Rig: 3_000_000, Cord: 200, Held: 300_000}
 
 
+@in_unit_of("angular_speed")
 def steady_shapes(
     system: Chain | Rig | Cord | Held,
     *,
@@ -254,6 +256,7 @@ def _height_and_speed(name: str, value: float, gravity: float) -> tuple[float, f
     return value, float(_core.conical_pendulum_angular_speed(one, g))
 
 
+@in_unit_of("angular_speed")
 def steady_shape(
     system: Chain | Rig | Cord | Held,
     *,

@@ -14,7 +14,7 @@ from ..systems.drawing import Plot
 from ..systems.numbers import integer, read_only, shown
 from ..systems.unchangeable import Unchangeable
 from .kinds import KINDS, restored
-from .sheet import Column, Sheet, as_dataframe, as_dataset, as_dict, as_html, as_rows, as_text
+from .sheet import Column, Sheet, as_dataframe, as_dataset, as_dict, as_html, as_rows, as_text, in_speed_unit
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -146,6 +146,7 @@ class Result(Unchangeable):
     __slots__ = ("__dict__",)  # has the fields known so far and, as `_core`, the compiled result
     plot = Plot()
     _core: Any
+    _speed_unit: str | None = None  # in which the question was asked: printed tables and pictures speak it
     _fields: ClassVar[dict[str, Field[Any]]] = {}
     _row: ClassVar[str] = "row"
     _title: ClassVar[str] = ""
@@ -218,6 +219,10 @@ class Result(Unchangeable):
         notes = "\n".join(map(str.format_map, self._notes, repeat(words))).splitlines()
         title = self._title.format_map(words)
         return Sheet(self._row, title, columns, facts, notes, self._is_good(), self._spread)
+
+    def _printed(self) -> Sheet:
+        """What a printed table shows, with its speeds in the unit in which the question was asked."""
+        return in_speed_unit(self._sheet(brief=True), self._speed_unit)
 
     def _state(self) -> dict[str, Any]:
         """All parts, and the other fields computed so far."""
@@ -338,10 +343,10 @@ class Result(Unchangeable):
         return self
 
     def __repr__(self) -> str:
-        return as_text(self._sheet(brief=True))
+        return as_text(self._printed())
 
     def _repr_html_(self) -> str:
-        return as_html(self._sheet(brief=True))
+        return as_html(self._printed())
 
 
 class Listed(Sequence[Item]):
@@ -385,6 +390,20 @@ class Results(Result, Listed[Item]):
 
     __slots__ = ()
     _items: Field[tuple[Any, ...]] = Field("The results.")
+
+
+Answered = TypeVar("Answered", bound=Result)
+
+
+def asked_in(unit: str | None, found: Answered) -> Answered:
+    """Return a result that prints and draws its speeds in the unit of the question; in the usual ones for None."""
+    if unit is not None and isinstance(found, Result):
+        found.__dict__["_speed_unit"] = unit
+        items: Any = found if isinstance(found, Listed) else ()
+        for item in items:
+            if isinstance(item, Result):
+                item.__dict__["_speed_unit"] = unit
+    return found
 
 
 class _Words:
@@ -446,6 +465,6 @@ class Row:
         return [name for name, field in self._result._fields.items() if field.axes is not None]
 
     def __repr__(self) -> str:
-        sheet = self._result._sheet(brief=True)
+        sheet = self._result._printed()
         cells = [f"{column.heading} {column.texts([self._index])[0]}" for column in sheet.columns if column.heading]
         return ", ".join(cells)

@@ -328,7 +328,7 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         return tuple(shape_made(found, self.system, g, self.direction) for found in self._found().shapes_at(height))
 
     def stability_windows(
-        self, *, frame: str = "free", tolerance: float = 1e-6, samples: int = 8, speed: str = "rad/s"
+        self, *, frame: str = "free", tolerance: float = 1e-6, samples: int = 8, speed: str | None = None
     ) -> StabilityWindows:
         """Return the windows of stability along the branch of a chain or rig.
 
@@ -341,7 +341,7 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         samples : int, optional
             Number of places to examine between two points of the branch, with one end.
         speed : {"rad/s", "rpm", "Hz", "s"}, optional
-            Unit in which the table prints speeds (``"s"``: periods). The fields and files are in rad/s.
+            Unit in which the table prints speeds (``"s"``: periods); that of the question, or rad/s, if left out. The fields and files are in rad/s.
 
         Returns
         -------
@@ -373,7 +373,7 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         unstable 0.1 end
         """
         caller = "revchain.Branch.stability_windows"
-        unit = word(caller, "speed", speed, SPEED_UNITS)
+        unit = word(caller, "speed", speed or self._speed_unit or "rad/s", SPEED_UNITS)
         found = self._listed_windows(caller, frame, tolerance, samples)
         given = {"frame": frame, "branch": None, "mode": None, "branches": 1, "unit": unit}
         return StabilityWindows._made(None, _items=tuple(found), **given)
@@ -652,7 +652,7 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
     _stability: Field[bool] = Field("Whether the verdicts were asked for, so that reports list the windows.")
 
     def stability_windows(
-        self, *, frame: str = "free", tolerance: float = 1e-6, samples: int = 8, speed: str = "rad/s"
+        self, *, frame: str = "free", tolerance: float = 1e-6, samples: int = 8, speed: str | None = None
     ) -> StabilityWindows:
         """Return the windows of stability of all branches in one table.
 
@@ -683,7 +683,7 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
         1 spectrally stable 4.0 end
         """
         caller = "revchain.Branches.stability_windows"
-        unit = word(caller, "speed", speed, SPEED_UNITS)
+        unit = word(caller, "speed", speed or self._speed_unit or "rad/s", SPEED_UNITS)
         each = [branch._listed_windows(caller, frame, tolerance, samples) for branch in self]
         numbers = np.repeat(np.arange(len(self)), [len(windows) for windows in each])
         return StabilityWindows._made(

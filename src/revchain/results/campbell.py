@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..systems.numbers import Floats
 from .base import Field, Result
-from .sheet import Sheet
+from .sheet import Sheet, in_unit
 
 
 class Crossing(NamedTuple):
@@ -83,13 +83,17 @@ class Campbell(Result, row="speed", title="{summary}", notes=("{_remarks}",), sp
         return sheet if brief else replace(sheet, facts={**sheet.facts, "crossings": crossings})
 
     def _words(self) -> str:
-        ends = self.angular_speed[[0, -1]] * (30 / np.pi)
+        unit = self._speed_unit or "rpm"
+        ends = [in_unit(at, unit) for at in self.angular_speed[[0, -1]]]
         many = self.frequency.shape[1]
-        return f"Campbell diagram: {many} frequenc{'y' if many == 1 else 'ies'} from {ends[0]:.4g} to {ends[1]:.4g} rpm"
+        return f"Campbell diagram: {many} frequenc{'y' if many == 1 else 'ies'} from {ends[0]:.4g} to {ends[1]:.4g} {unit}"
 
     @property
     def _remarks(self) -> str:
-        lines = [f"{one.order}n meets frequency {one.motion} at {one.rpm:.5g} rpm" for one in self.crossings]
+        unit = self._speed_unit or "rpm"
+        lines = [
+            f"{one.order}n meets frequency {one.motion} at {in_unit(one.angular_speed, unit):.5g} {unit}" for one in self.crossings
+        ]
         if missing := int(np.isnan(self.frequency).all(axis=1).sum()):
             lines.append(f"nan: at {missing} of {self.angular_speed.size} speeds no shape was found, or none of its motions oscillates")
         return "\n".join([*lines, "frequencies: of small motion in the turning frame, where what is constant in space turns once (1n)"])

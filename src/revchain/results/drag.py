@@ -10,6 +10,7 @@ import numpy as np
 from ..systems.drag import Drag
 from ..systems.numbers import Floats, Whole
 from .base import Field, Result
+from .sheet import speed_text
 
 
 class DragShape(Result, row="link", title="{summary}", notes=("{_remarks}",), good="status"):
@@ -119,6 +120,8 @@ class DragShape(Result, row="link", title="{summary}", notes=("{_remarks}",), go
     def _words(self) -> str:
         newton, watt = (" N m", " W") if self.system.by_mass else ("", "")
         speed = f"{self.angular_speed:.6g} rad/s ({self.angular_speed * 30 / np.pi:.4g} rpm)"
+        if self._speed_unit in ("Hz", "s"):
+            speed = speed_text(self.angular_speed, self._speed_unit)
         reached = "" if self.status == "success" else f" at {self.factor:.4g} of the "
         if reached:
             reached += "squared speed" if self._half_waves is None else "drag"

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..systems.numbers import Floats, Whole, shown
 from .base import Field, Result
+from .sheet import in_unit
 
 _MOST_LINES = 8
 _ALIKE = 1e-6  # relative difference of standardized residuals that are equal
@@ -27,8 +28,8 @@ class Fitted(Result, row="datum", title="Fitted: {summary}", notes=("{_lines}",)
     datum            value  standard uncertainty   before  unit
     length         29.9867              0.108299  30.0000  m
     links[0].mass  2683.31               38.4727  2500.00  kg
-    mode 1: measured 0.578030 rad/s, computed 0.578030, residual +0.0 standard uncertainties
-    mode 2: measured 3.92699 rad/s, computed 3.92699, residual +0.0 standard uncertainties
+    mode 1: measured 10.8700 s, computed 10.8700, residual +0.0 standard uncertainties
+    mode 2: measured 1.60000 s, computed 1.60000, residual +0.0 standard uncertainties
     >>> round(found["length"], 4)
     29.9867
     >>> found.system.total_length == found["length"]
@@ -147,12 +148,14 @@ class Fitted(Result, row="datum", title="Fitted: {summary}", notes=("{_lines}",)
             why = "start nearer, vary other data, or doubt the uncertainties"
             lines.append(f"chi-square is far above its degrees of freedom: {why}")
         lines += self._disagreement()
+        unit = self._speed_unit or "rad/s"
         for k, (number, measured, computed) in enumerate(zip(self.number, self.measured, self.computed, strict=True)):
             if k == _MOST_LINES:
                 lines.append(f"and {len(self.number) - k} more measured speeds")
                 break
-            line = f"mode {number}: measured {measured:#.6g} rad/s, computed {computed:#.6g}"
-            off = round(float(self.normalized_residual[k]), 1) + 0.0
+            one, other = (in_unit(abs(speed) if unit == "s" else speed, unit) for speed in (measured, computed))
+            line = f"mode {number}: measured {one:#.6g} {unit}, computed {other:#.6g}"
+            off = round(float(self.normalized_residual[k]) * (-1 if unit == "s" else 1), 1) + 0.0  # of what is printed
             lines.append(f"{line}, residual {off:+.1f} standard uncertainties" if np.isfinite(off) else line)
         return "\n".join(lines)
 

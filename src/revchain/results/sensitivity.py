@@ -13,9 +13,10 @@ from .. import _core
 from ..systems.chain import like
 from ..systems.numbers import Floats, Whole, floats, real, refuse_where, shown
 from ..systems.paths import link_in_path
-from ..systems.units import unpacked
+from ..systems.units import unpacked, with_tolerance
 from .base import Field, Result, UnavailableError
 from .sheet import Column, Sheet
+from .worst import Moved, WorstCase, worst_of_modes
 
 if TYPE_CHECKING:
     from ..systems.datum import Datum
@@ -221,6 +222,12 @@ class Uncertainty(Result, row="mode", title="Standard deviations"):
         column="largest",
         left=True,
     )
+    worst: Field[WorstCase | None] = Field(
+        "With ``worst=True``: the proved lowest and highest speeds over the box of tolerances, else None.", joined=True
+    )
+
+    def _sheet(self, brief: bool = False) -> Sheet:
+        return super()._sheet(brief) if self.worst is None or not brief else self.worst._sheet(brief)
 
 
 def by_datum(of: str, modes: Any, value: dict[str, Any], **more: Any) -> Sensitivity:
@@ -273,7 +280,9 @@ def rig_derivatives(rig: Rig, speeds: Any, shapes: Any, gravity: float) -> dict[
     return {name: found[name] for name in (*DATA, *OF_RIGS)}
 
 
-def uncertainty_of_modes(modes: Modes, given: dict[str, Any], paths: Mapping[str, Any]) -> Uncertainty:
+def uncertainty_of_modes(
+    modes: Modes, given: dict[str, Any], paths: Mapping[str, Any], worst: bool = False
+) -> Uncertainty:
     """See `Modes.uncertainty`; `given` has the deviations by keyword, `paths` those by path."""
     caller, system, kind = "revchain.Modes.uncertainty", modes.system, modes.system._kind
     if kind == "held chain":
@@ -284,12 +293,13 @@ def uncertainty_of_modes(modes: Modes, given: dict[str, Any], paths: Mapping[str
     given = _checked(caller, modes, given, sensitivity.data)
     data = _data(system, modes.gravity)
     parts: dict[str, Floats] = {}
+    widths: dict[str, Floats] = {}
     for name, rates in sensitivity.value.items():
         spread = np.zeros(())
         if name in given:
             present = np.broadcast_to(data[name], rates.shape[1] if rates.ndim == 2 else 1)
             called = name if system.by_mass else name.replace("mass", "weight")
-            spread = _deviations(caller, called, given[name], present)
+            spread = widths[name] = _deviations(caller, called, given[name], present)
         each = np.nan_to_num(rates if rates.ndim == 2 else rates[:, None])
         part = each * (each @ spread) if spread.ndim == 2 else (each * spread) ** 2
         parts[name] = part if rates.ndim == 2 else part[:, 0]
@@ -316,7 +326,13 @@ def uncertainty_of_modes(modes: Modes, given: dict[str, Any], paths: Mapping[str
         period=0.5 * relative * np.asarray(modes.period, np.float64),
         share=by_datum("part of the variance", modes, share),
         largest=tuple(_largest(system, by_path, places, row) for row in np.abs(table)),
+        worst=worst_of_modes(caller, modes, widths, data, _moved(by_path)) if worst else None,
     )
+
+
+def _moved(by_path: Mapping[str, tuple[Datum, float]]) -> dict[str, Moved]:
+    """The data given by path, as `worst_of_modes` takes them."""
+    return {path: Moved(*_rate(datum), datum.present, width) for path, (datum, width) in by_path.items()}
 
 
 def _rate(datum: Datum) -> tuple[str, Any]:
@@ -355,7 +371,7 @@ def _by_path(
             raise ValueError(f'{caller}: give either {min(twice)} or "{datum.said}", got both')
         if not np.isfinite(datum.present):
             raise ValueError(f"{caller}: {datum.said} is for a support on a spring, and this one is firm; leave it out")
-        size = unpacked(value)
+        size = _spread(f"{caller}: {datum.quantity}", unpacked(value), datum.present)
         if isinstance(size, str) and size.strip().endswith("%"):
             size = _part(f"{caller}: {datum.said}", size) * abs(datum.present)
         size = real(caller, f"{datum.quantity} (deviation of {datum.said})", size)
@@ -471,10 +487,30 @@ def _deviations(caller: str, name: str, given: Any, data: Floats) -> Floats:
 def _parts_of_data(caller: str, value: Any, data: Floats) -> list[Any]:
     """Deviations; those given in percent are multiplied by the data."""
     of = [data[k] if k < len(data) else 1.0 for k in range(len(value))]
+    spreads = [_spread(caller, one, float(datum)) for one, datum in zip(value, of, strict=True)]
     return [
         _part(caller, one) * float(datum) if isinstance(one, str) and one.strip().endswith("%") else one
-        for one, datum in zip(value, of, strict=True)
+        for one, datum in zip(spreads, of, strict=True)
     ]
+
+
+def _spread(caller: str, given: Any, datum: float) -> Any:
+    """What stands behind +- in text such as "38 m +- 0.5 m", whose first number must be the datum; anything else unchanged."""
+    parts = with_tolerance(given) if isinstance(given, str) else None
+    if parts is None:
+        return given
+    value, spread = parts
+    if value and abs(float(floats(*_named(caller), value)) - datum) > 1e-6 * datum:
+        name = _named(caller)[1]
+        raise ValueError(
+            f'{caller} of the system is {datum:.9g}, not "{value}": write "+- {spread}", or give the system that {name}'
+        )
+    return spread
+
+
+def _named(caller: str) -> tuple[str, str]:
+    function, _, name = caller.rpartition(": ")
+    return function, name
 
 
 def _part(caller: str, text: str) -> float:

@@ -19,7 +19,7 @@ from .held_sensitivity import held_shape_sensitivity
 from .moving import Moving
 from .sensitivity import Sensitivity
 from .shape_sensitivity import shape_sensitivity
-from .sheet import Column, Sheet, digits
+from .sheet import Column, Sheet, speed_text
 
 
 TURN = 2 * math.pi
@@ -527,7 +527,7 @@ class SteadyShape(Result, Moving, row="link", title="Steady shape of {_waves}{_a
 
     @property
     def _at_speed(self) -> str:
-        return at_speed(self.angular_speed)
+        return at_speed(self.angular_speed, self._speed_unit)
 
     @property
     def _order(self) -> str:
@@ -712,7 +712,7 @@ class SteadyShapes(Results[SteadyShape], Moving, row="shape", title="{_heading}"
 
     @property
     def _heading(self) -> str:
-        words = self._how_many("" if self.angular_speed is None else at_speed(self.angular_speed))
+        words = self._how_many("" if self.angular_speed is None else at_speed(self.angular_speed, self._speed_unit))
         if not self._posture():
             return words
         others = "with links above their pins" if self._posture() == "hanging" else "in other postures"
@@ -739,9 +739,9 @@ class SteadyShapes(Results[SteadyShape], Moving, row="shape", title="{_heading}"
         return self.complete or self.mode is not None or hasattr(self.system, "span")
 
 
-def at_speed(speed: float) -> str:
-    """Return a speed in rad/s and rpm as words for a heading."""
-    return f" at {digits(speed, 6)} rad/s ({digits(speed * 30 / math.pi, 4)} rpm)"
+def at_speed(speed: float, unit: str | None = None) -> str:
+    """Return a speed in rad/s and rpm as words for a heading; in Hz or as a period if that was asked."""
+    return f" at {speed_text(speed, unit)}"
 
 
 def _speed(height: float, gravity: float) -> float:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import repeat
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -12,6 +12,7 @@ import numpy as np
 
 from ..systems.extras import require
 from ..systems.numbers import Numbers
+from ..systems.units import SPEED_UNITS
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -113,6 +114,54 @@ def speed_columns(speed: Any, digits: int = 6) -> list[Column]:
         Column("angular_speed", speed, "speed (rad/s)", digits, unit="rad/s"),
         Column("rpm", speed * (30 / math.pi), "speed (rpm)", digits, unit="rpm"),
     ]
+
+
+def in_speed_unit(sheet: Sheet, unit: str | None) -> Sheet:
+    """The sheet with its printed speeds in a unit of `units.SPEED_UNITS`; the same sheet for None.
+
+    Columns keep their names and values; only the headings and what is printed change. A column that would be printed
+    twice, or that has the speed in rpm beside, is not printed.
+    """
+    if unit is None:
+        return sheet
+    quantity = SPEED_UNITS[unit][0]
+    columns, speeds = [], None
+    for column in sheet.columns:
+        heading = column.heading
+        if heading.endswith(" (rad/s)"):
+            words = heading.removesuffix(" (rad/s)")
+            values = np.asarray(column.values if column.shown is None else column.shown, np.float64)
+            shown = in_unit(values, unit)
+            speeds = values if speeds is None else speeds
+            words = quantity if words == "speed" else words if quantity == "speed" or quantity in words else f"{words}, as {quantity}"
+            column = column._replace(heading=f"{words} ({unit})", shown=shown)
+        elif heading and speeds is not None and (column.name == "rpm" or (column.unit == unit == "s" and _is_period(column, speeds))):
+            column = column._replace(heading="")
+        columns.append(column)
+    return replace(sheet, columns=columns)
+
+
+def _is_period(column: Column, speeds: Any) -> bool:
+    """Whether a column has the periods of these speeds."""
+    with np.errstate(divide="ignore"):
+        return bool(np.allclose(np.asarray(column.values, np.float64), 2 * math.pi / np.abs(speeds), rtol=1e-9, equal_nan=True))
+
+
+def in_unit(speed: Any, unit: str) -> Any:
+    """A speed in rad/s, or an array of them, in a unit of `units.SPEED_UNITS`; periods have the sign of the speed."""
+    per_radian = SPEED_UNITS[unit][1]
+    if unit != "s":
+        return per_radian * speed
+    with np.errstate(divide="ignore"):
+        return np.divide(per_radian, speed)
+
+
+def speed_text(speed: float, unit: str | None, count: int = 6) -> str:
+    """A speed with the unit asked: in rad/s and rpm, or in Hz or as a period with rad/s beside it."""
+    radians = f"{digits(speed, count)} rad/s"
+    if unit in ("Hz", "s"):
+        return f"{'a period of ' if unit == 's' else ''}{digits(in_unit(speed, unit), count)} {unit} ({radians})"
+    return f"{radians} ({digits(speed * 30 / math.pi, 4)} rpm)"
 
 
 def digits(number: float, count: int) -> str:

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from msgspec import UNSET
+from msgspec import UNSET, to_builtins
 
 from .. import _core
 from ..closed_forms.governor import SleeveGovernor
@@ -24,6 +24,7 @@ from ..systems.chain import Chain
 from ..systems.held import Held
 from ..systems.rig import Rig
 from ..systems.support_motion import KINDS, SupportMotion
+from ..systems.units import speed_unit
 from .parse import choice, written
 from .system import Given, Numbers, System, Whirling
 from .tables import DEFAULT_MODES, AskCampbell, AskDrag, Spread, Table, fields_of, number_fields
@@ -209,7 +210,9 @@ def _support_motion(time: Any, moved: Given, numbers: Numbers) -> SupportMotion 
 
 def _campbell(table: AskCampbell, given: Given, system: Whirling | None, numbers: Numbers) -> None:
     """Check that there are ascending speeds."""
-    speeds = given.get("angular_speed")
+    speeds: Any = given.get("angular_speed")
+    if np.size(speeds) > 1 and speed_unit(to_builtins(table)) == "s" and (np.diff(speeds) < 0).all():  # ascending periods are descending speeds
+        speeds = given["angular_speed"] = speeds[::-1]
     if speeds is None:
         example = '"1 rpm to 20 rpm in 39"' if numbers.options else '{from = "1 rpm", to = "20 rpm", steps = 39}'
         numbers.refuse("angular_speed", f"is missing: write {numbers.named('angular_speed', example)}")

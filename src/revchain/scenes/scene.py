@@ -11,7 +11,9 @@ import numpy as np
 from msgspec import UNSET, UnsetType, json, to_builtins
 
 from .. import _core
+from ..results.base import asked_in
 from ..systems.numbers import text
+from ..systems.units import speed_unit
 from . import parse
 from .answer import MOVES, SPEEDS, answered, arguments
 from .error import Problem, SceneError
@@ -282,12 +284,14 @@ class Scene(Tables, frozen=True, weakref=True):
         With `options`, errors name keys as options of a command.
         """
         (system, gravity), given = self._built(), None if changed else self._made().get(question)
+        table = self._table(question, changed)
+        unit = speed_unit(to_builtins(table)) if isinstance(self.speed, UnsetType) else self.speed
         try:
             if given is None:
                 numbers = Numbers("scene", options=options)
-                given = self._arguments(question, self._table(question, changed), system, numbers)
+                given = self._arguments(question, table, system, numbers)
                 numbers.done()
-            return answered(question, system, given, gravity, progress)
+            return asked_in(unit, answered(question, system, given, gravity, progress))
         except ValueError as error:
             if not isinstance(error, SceneError):
                 error = SceneError("scene", problems=[self._problem_of(error, question, self._table(question, changed))])

@@ -18,7 +18,7 @@ from ..systems.cord import Cord
 from ..systems.drag import Drag
 from ..systems.held import Held
 from ..systems.rig import Displaced, Flywheel, Pin, Rig, Support
-from ..systems.units import si_value
+from ..systems.units import SI, si_value, speed_unit
 from . import tables
 from .error import Problem, SceneError
 from .parse import without_consequences, written
@@ -116,7 +116,8 @@ class Numbers:
         `ranges` says whether a range is allowed.
         """
         if isinstance(given, tuple):
-            return tuple([self.value(f"{key}[{k}]", end, key, sign, finite=False) for k, end in enumerate(given)])
+            pair = [self.value(f"{key}[{k}]", end, key, sign, finite=False) for k, end in enumerate(given)]
+            return tuple(sorted(pair) if _are_periods(key, given) else pair)  # a long period is a low speed
         if isinstance(given, list):
             if not given:
                 self.refuse(key, "is an empty list")
@@ -127,6 +128,8 @@ class Numbers:
             if given.log and first * last <= 0:
                 self.refuse(f"{key}.log", "equal ratios need ends that are not 0 and have the same sign")
                 return math.nan
+            if _are_periods(key, (given.first, given.last)) and not given.log:  # even steps of the period
+                return 1 / np.linspace(1 / first, 1 / last, given.steps)
             return (np.geomspace if given.log else np.linspace)(first, last, given.steps)
         if isinstance(given, str) and (words := re.fullmatch(r"(\S.*?)\s+to\s+(.+)", given)):
             range_ = f'a range is written {{from = "{words[1]}", to = "{words[2]}"}}'
@@ -168,6 +171,11 @@ class Numbers:
             self.refuse("", "mass (kg) or weight (N) is missing")
         if heavy or not optional:
             found[prefix + self.heavy] = heavy
+
+
+def _are_periods(key: str, given: Sequence[Any]) -> bool:
+    """Whether both ends of a range of speeds are given as periods."""
+    return SI.get(key, ("", ""))[1] == "an angular speed" and all(speed_unit(end) == "s" for end in given)
 
 
 def is_by_mass(scene: Tables) -> bool:

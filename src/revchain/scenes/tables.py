@@ -17,7 +17,7 @@ def says(text: str) -> Meta:
 
 
 MOST_LINKS = 10_000_000
-BESIDE = ("schema_version", "title", "description", "gravity", "order", "support", "fluid", "held", "ask")
+BESIDE = ("schema_version", "title", "description", "gravity", "order", "support", "speed", "fluid", "held", "ask")
 SYSTEMS = ("links", "uniform_chain", "tapered_chain", "cord", "governor")  # a scene has exactly one of these tables
 
 WithUnit = Annotated[str, Meta(pattern=PATTERN, description='A number and its unit, such as "39.1396 inch".')]
@@ -455,6 +455,10 @@ class Tables(Table, frozen=True):
     cord: Annotated[Cord | UnsetType, says("A flexible cord, instead of links.")] = UNSET
     governor: Annotated[Governor | UnsetType, says("A centrifugal governor, instead of links.")] = UNSET
     support: Annotated[Support | UnsetType, says("Support of the chain; a firm point on the axis if left out.")] = UNSET
+    speed: Annotated[
+        Literal["rad/s", "rpm", "Hz", "s"] | UnsetType,
+        says('Unit of speeds in printed tables and pictures ("s": periods); that of the question if left out.'),
+    ] = UNSET
     fluid: Annotated[Literal["still", "turning"], says("Motion of the fluid: at rest, or turning with the chain.")] = "still"
     held: Annotated[Held | UnsetType, says("Data of a chain or cord that is held at both ends.")] = UNSET
     ask: Annotated[Ask, says("Questions to answer.")] = Ask()

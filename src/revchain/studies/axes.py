@@ -19,7 +19,7 @@ from ..scenes.system import Numbers
 from ..scenes.tables import Link, Table, fields_of, says
 from ..systems.numbers import Floats
 from ..systems.paths import Path, numbered, steps
-from ..systems.units import SI
+from ..systems.units import SI, speed_unit, with_tolerance
 
 MAX_STEPS = 10**7
 MAX_POINTS = 10**12
@@ -44,13 +44,14 @@ class Vary(Table, frozen=True, rename={"first": "from", "last": "to"}):
     log: Annotated[bool, says("Whether the values have equal ratios instead of equal differences.")] = False
     values: Annotated[Listed | UnsetType, says("Values of a grid, instead of from, to and steps.")] = UNSET
     uniform: Annotated[
-        TwoNumbers | UnsetType, says('Random numbers with a uniform distribution, [low, high] or [middle, "5 %"].')
+        TwoNumbers | str | UnsetType,
+        says('Random numbers with a uniform distribution, [low, high], [middle, "5 %"] or "38 m +- 0.5 m".'),
     ] = UNSET
     normal: Annotated[
-        TwoNumbers | UnsetType, says('Random numbers with a normal distribution, [mean, deviation] or [mean, "5 %"].')
+        TwoNumbers | str | UnsetType, says('Random numbers with a normal distribution, [mean, deviation], [mean, "5 %"] or "38 m +- 0.5 m".')
     ] = UNSET
     log_uniform: Annotated[
-        TwoNumbers | UnsetType, says('Random numbers with a uniform logarithm, [low, high] or [middle, "5 %"].')
+        TwoNumbers | str | UnsetType, says('Random numbers with a uniform logarithm, [low, high] or [middle, "5 %"].')
     ] = UNSET
     name: Annotated[str | UnsetType, says("Name of the column; the path if left out.")] = UNSET
 
@@ -189,6 +190,8 @@ def _grid(table: Vary, quantity: str, numbers: Numbers) -> Floats | None:
         numbers.refuse("steps", f"must be at most {MAX_STEPS:,}, got {table.steps:,}")
     elif table.log and min(low, high) <= 0:
         numbers.refuse("log", "needs from and to that are positive")
+    elif SI[quantity][1] == "an angular speed" and not table.log and speed_unit(table.first) == speed_unit(table.last) == "s":
+        return 1 / np.linspace(1 / low, 1 / high, table.steps)  # even steps of the period
     else:
         return (np.geomspace if table.log else np.linspace)(low, high, table.steps)
     return None
@@ -206,8 +209,22 @@ def _listed(given: Any, parts: list[Any], quantity: str, numbers: Numbers) -> ND
     return np.array([numbers.value(f"values[{k}]", value, quantity, "any") for k, value in enumerate(given)])
 
 
-def _law(law: str, given: Sequence[Any], quantity: str, numbers: Numbers) -> tuple[float, float]:
+def _law(law: str, given: Any, quantity: str, numbers: Numbers) -> tuple[float, float]:
     """Mean and deviation, or low and high end, of random numbers."""
+    spread: Any = None
+    if isinstance(given, str):
+        parts = with_tolerance(given)
+        if parts is None or not parts[0]:
+            form = "[mean, deviation]" if law == "normal" else "[low, high]"
+            numbers.refuse(law, f'must be two numbers {form}, or text such as "38 m +- 0.5 m", got "{given}"')
+            return math.nan, math.nan
+        given = parts
+        spread = None if parts[1].endswith("%") else parts[1]
+    elif isinstance(given[1], str) and (parts := with_tolerance(given[1])) is not None and not parts[0]:
+        given, spread = (given[0], parts[1]), None if parts[1].endswith("%") else parts[1]
+    if spread is not None and SI[quantity][1] == "an angular speed" and speed_unit(spread) == "s":
+        numbers.refuse(law, f"must be a speed with a tolerance in the same unit, not a period, got {parse.written(list(given))}")
+        return math.nan, math.nan
     one = numbers.value(f"{law}[0]", given[0], quantity, "any")
     if isinstance(given[1], str) and _PERCENT.fullmatch(given[1]):
         part = numbers.value(f"{law}[1]", given[1], "rtol", "positive")
@@ -217,8 +234,13 @@ def _law(law: str, given: Sequence[Any], quantity: str, numbers: Numbers) -> tup
             "uniform": (one - spread, one + spread),
             "log_uniform": (one / (1 + part), one * (1 + part)),
         }[law]
+    elif spread is not None and law != "normal":
+        half = numbers.value(f"{law}[1]", spread, quantity, "positive")
+        one, two = one - half, one + half
     else:
         two = numbers.value(f"{law}[1]", given[1], quantity, "any")
+    if law != "normal" and one > two and SI[quantity][1] == "an angular speed" and speed_unit(list(given)) == "s":
+        one, two = two, one  # a long period is a low speed
     if law == "normal" and two < 0:
         numbers.refuse(law, f"its deviation must not be negative, got {given[1]}")
     elif law == "log_uniform" and one <= 0:

@@ -14,6 +14,7 @@ import numpy as np
 from msgspec import UNSET, UnsetType, convert
 from numpy.typing import NDArray
 
+from ..results.sheet import in_unit
 from ..scenes.tables import DEFAULT_MODES, AskModes, Spread
 from ..scenes.system import Numbers
 from ..scenes.scene import Scene
@@ -70,6 +71,7 @@ _ANSWERS = {
     "drag": Scene.drag_shape, "equilibria": Scene.equilibria,
 }  # fmt: skip
 STUDIED = tuple(_ANSWERS)
+WAYS = {"angular_speed": "rad/s", "rpm": "rpm", "frequency": "Hz", "period": "s"}  # of finding the speeds of modes: unit by name
 _OF_STOPS = {"lowest_speed": "rad/s", "highest_speed": "rad/s", "lift": "m", "sensitiveness": "", "insensitiveness": ""}
 _OF_EQUILIBRIA = {"inclination": "rad", "lift": "m", "ball_radius": "m", "period": "s"}
 OUTPUTS = {
@@ -123,6 +125,7 @@ class Plan:
     seed: int
     find: tuple[str, ...]  # of `STUDIED`
     outputs: Labels
+    ways: tuple[str, ...]  # of `WAYS`, if only the speeds of modes are wanted
     links: Links | None  # how links follow the varied numbers, if heights come from `revchain.conical_heights`
 
     @property
@@ -206,6 +209,7 @@ def asked_of(scene: Scene, wanted: Sequence[str] | UnsetType, numbers: Numbers) 
         for name in set(scene.asks) - set(STUDIED):
             numbers.refuse(f"scene.ask.{name}", 'is not for studies; say what is: find = ["modes"]')
     else:
+        wanted = list(dict.fromkeys("modes" if name in WAYS else name for name in wanted))
         for k, name in enumerate(wanted):
             if name == ("equilibria" if always == "modes" else "modes"):
                 numbers.refuse(f"find[{k}]", f'has no answer for this system: write "{always}"')
@@ -249,6 +253,18 @@ def outputs_of(scene: Scene, largest: Scene, find: tuple[str, ...], max_shapes: 
         for name, output in OUTPUTS.items()
         if output.question in find and output.only in kinds and (bounds or not name.endswith("error_bound"))
     }
+
+
+def said(plan: Plan, name: str) -> dict[str, tuple[str, Callable[[Any], Any]]]:
+    """The variables in which a study stores an output: by name the unit, and a function of the numbers."""
+    if not plan.ways or OUTPUTS[name].question != "modes":
+        return {name: (OUTPUTS[name].unit, np.asarray)}
+    if not name.endswith("angular_speed"):
+        return {}
+    found: dict[str, tuple[str, Callable[[Any], Any]]] = {}
+    for way in plan.ways:
+        found[name.replace("angular_speed", way)] = WAYS[way], partial(in_unit, unit=WAYS[way])
+    return found
 
 
 def columns_of(name: str, labels: tuple[int, ...]) -> list[str]:

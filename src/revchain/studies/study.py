@@ -18,13 +18,23 @@ from ..scenes.positions import joined
 from ..scenes.scene import Scene, _named, json_schema, load_scene
 from ..scenes.tables import Table, says
 from ..systems.numbers import file_path, integer, text
-from .axes import LAWS, MAX_POINTS, Axis, Samples, Vary, axis_of, with_value
+from ..systems.paths import steps
+from ..systems.units import SI, speed_unit
+from .axes import LAWS, MAX_POINTS, Axis, Samples, Vary, axis_of, quantity_of, with_value
 from .batch import links_of
-from .plan import OUTPUTS, Plan, answers, asked_of, columns_of, outputs_of
+from .plan import OUTPUTS, WAYS, Plan, answers, asked_of, columns_of, outputs_of
+from .scatter import SPEEDS, Scatter, why_no_worst
 
 __all__ = ["Study", "load_study"]
 
-Finds = Annotated[list[Literal["modes", "shapes", "response", "campbell", "drag", "equilibria"]], Meta(min_length=1)]
+Finds = Annotated[
+    list[
+        Literal[
+            "modes", "shapes", "response", "campbell", "drag", "equilibria", "angular_speed", "rpm", "frequency", "period"
+        ]
+    ],
+    Meta(min_length=1),
+]
 MostShapes = Annotated[int, Meta(ge=1, le=1000)]
 
 
@@ -44,10 +54,13 @@ class Study(Table, frozen=True):
     seed : int
         Seed of the random numbers.
     find : list of {"modes", "shapes", "response", "campbell", "drag", "equilibria"}, optional
-        Questions to answer. If left out, those for which the scene has a table; if it has none, its modes, or the
+        Questions to answer. ``"angular_speed"``, ``"rpm"``, ``"frequency"`` and ``"period"`` store the speeds of modes in
+        these units, and nothing else of modes. If left out, those for which the scene has a table; if it has none, its modes, or the
         equilibria of a governor.
     max_shapes : int
         Largest number of stored steady shapes, or equilibria of a governor, of each point.
+    scatter : Scatter, optional
+        With ``worst=True``: also find the proved lowest and highest speeds over the intervals of uniform random numbers.
     error_bounds : bool, optional
         Whether to store error bounds. If left out, they are stored, except for plain chains of up to 100 links: those are
         computed in batches (`revchain.conical_heights`, accurate to 5 ulp) without bounds.
@@ -82,11 +95,12 @@ class Study(Table, frozen=True):
         Samples | UnsetType, says("Number of points with random numbers at each point of the grids.")
     ] = UNSET
     seed: Annotated[Annotated[int, Meta(ge=0)], says("Seed of the random numbers.")] = 0
-    find: Annotated[Finds | UnsetType, says("Questions to answer; those of the scene if left out.")] = UNSET
+    find: Annotated[Finds | UnsetType, says('Questions to answer, or how to store speeds of modes, such as "period"; the questions of the scene if left out.')] = UNSET
     max_shapes: Annotated[MostShapes, says("Largest number of stored steady shapes or equilibria of each point.")] = 4
     error_bounds: Annotated[
         bool | UnsetType, says("Whether to store error bounds; if left out, batches have none.")
     ] = UNSET
+    scatter: Annotated[Scatter, says("What to find for random numbers beside the results of each point.")] = Scatter()
 
     @classmethod
     def from_dict(cls, data: dict[str, Any], source: str = "study", folder: str | os.PathLike[str] = ".") -> Study:
@@ -193,6 +207,14 @@ class Study(Table, frozen=True):
             raise IndexError(f"{caller}: there are {plan.points} points from 0 on, got {point}")
         return Scene.from_dict(plan.scene([column[point].item() for column in plan.values()]))
 
+    def _speed_unit(self) -> str | None:
+        """The unit of speeds in printed tables and pictures: that of the scene, or in which speeds are varied or asked."""
+        assert isinstance(self.scene, Scene)
+        if not isinstance(self.scene.speed, UnsetType):
+            return self.scene.speed
+        speeds = [key for key in self.vary if SI[quantity_of(steps(key))][1] == "an angular speed" and key.startswith("ask.")]
+        return speed_unit([to_builtins(self.vary[key]) for key in speeds]) or speed_unit(to_builtins(self.scene.ask))
+
     def _refusal(self, point: int) -> str:
         """The reason why a point has no numbers."""
         try:
@@ -227,6 +249,7 @@ class Study(Table, frozen=True):
             numbers.refuse("scene", "must be a table, or be read by load_study from its file")
         numbers.done()
         assert isinstance(scene, Scene)
+        find_given = () if isinstance(self.find, UnsetType) else self.find
         batched = find == ("modes",) and self.error_bounds is not True
         samples = 1 if isinstance(self.samples, UnsetType) else self.samples
         grids = [axis.values.size for axis in axes if axis.values is not None]
@@ -235,11 +258,15 @@ class Study(Table, frozen=True):
         bounds = links is None if isinstance(self.error_bounds, UnsetType) else self.error_bounds
         outputs = outputs_of(scene, _largest(base, axes, source), find, self.max_shapes, bounds)
         columns = {"point", "status", "sample", *(output.along for output in OUTPUTS.values()), *outputs}
-        columns.update(*(columns_of(*output) for output in outputs.items()))
+        ways = tuple(dict.fromkeys(name for name in WAYS if name in find_given)) if "modes" not in find_given else ()
+        columns.update(*(columns_of(*output) for output in outputs.items()), ways)
+        columns.update(SPEEDS * self.scatter.worst)
         for axis in axes:
             if axis.name in columns:
                 numbers.of(joined("vary", axis.key)).refuse("name", f"{axis.name} is the name of a result")
-        plan = Plan(base, axes, shape, self.seed, find, outputs, links)
+        plan = Plan(base, axes, shape, self.seed, find, outputs, ways, links)
+        if self.scatter.worst and not numbers.problems and (reason := why_no_worst(plan)):
+            numbers.refuse("scatter.worst", reason)
         if plan.points > MAX_POINTS:
             numbers.refuse("vary", f"makes {plan.points:,} points; at most {MAX_POINTS:,}")
         numbers.done()

@@ -22,7 +22,8 @@ from ..results.files import OutputError, hdf5_file, naming, written_aside
 from ..systems.extras import require
 from ..systems.numbers import count as checked_count
 from ..systems.numbers import file_path, shown
-from .plan import OUTPUTS, STATUS, Plan, Rows, Values
+from .plan import OUTPUTS, STATUS, Plan, Rows, Values, said
+from .scatter import worst_cases
 from .study import Study, load_study
 
 if TYPE_CHECKING:
@@ -283,13 +284,18 @@ def dataset(study: Study, plan: Plan, values: Values, rows: Rows) -> Dataset:
         else:
             coordinates[axis.name] = axis.name, axis.values, about
     for name, labels in plan.outputs.items():
-        along, unit = [OUTPUTS[name].along] * bool(labels), OUTPUTS[name].unit
+        along = [OUTPUTS[name].along] * bool(labels)
         array = rows[name].reshape(*plan.shape, *[len(labels)] * len(along))
-        data[name] = [*points, *along], array, {"units": unit} if unit else {}
+        for stored, (unit, of) in said(plan, name).items():
+            data[stored] = [*points, *along], of(array), {"units": unit} if unit else {}
         coordinates |= {dimension: (dimension, np.array(labels)) for dimension in along}
+    if study.scatter.worst:
+        data |= worst_cases(plan, values)
     flags = {"flag_values": np.arange(1, 4, dtype=np.int8), "flag_meanings": " ".join(STATUS)}
     data["status"] = points, rows["status"].reshape(plan.shape), flags
     about = {"title": study.title, "study": json.dumps(study.to_dict())}
+    if (asked := study._speed_unit()) is not None:
+        about["speed_unit"] = asked
     found: Dataset = require("xarray", "sweep", _CALLER).Dataset(data, coordinates, about)
     return found
 

@@ -8,12 +8,14 @@ import re
 from functools import lru_cache
 from typing import Any
 
+import numpy as np
+
 from .extras import require
 
 _NUMBER = r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?"
 _UNIT = r"([a-zA-Zµμ°]+((\^|\*\*)-?\d)?|%)"
-PATTERN = rf"^\s*{_NUMBER}\s*{_UNIT}((\s*[*/]\s*|\s+){_UNIT})*\s*$"
-"""A number and a unit, such as ``39.1396 inch`` or ``9.81 m/s^2``.
+PATTERN = rf"^\s*{_NUMBER}\s*((1\s*)?/\s*)?{_UNIT}((\s*[*/]\s*|\s+){_UNIT})*\s*$"
+"""A number and a unit, such as ``39.1396 inch``, ``9.81 m/s^2`` or ``60 1/min``.
 
 Exponents have one digit, because pint evaluates any expression, and ``m**9**9**9`` would never end.
 """
@@ -69,6 +71,58 @@ SPEED_UNITS = {
 }
 """Units in which speeds are shown: what is measured in each, and the number of the unit for 1 rad/s."""
 
+_TURNS = {"1/min": "rpm", "/min": "rpm", "min^-1": "rpm", "min**-1": "rpm"}  # nameplates have turns in them
+_UNCLEAR = ("1/s", "/s", "s^-1", "s**-1")
+_TOLERANCE = re.compile(r"\(?\s*(.*?)\s*(?:±|\+\s*/?\s*-)\s*([^()]*?)\s*(?:\)\s*(.*))?")
+
+
+def speed_unit(value: Any) -> str | None:
+    """The way of `SPEED_UNITS` in which a value says a speed: text, a quantity of pint, or the first of them in a list.
+
+    It is None for numbers and for any other unit.
+    """
+    value = unpacked(value)
+    if isinstance(value, dict):
+        value = list(value.values())
+    if isinstance(value, list | tuple):
+        return next((unit for unit in map(speed_unit, value) if unit), None)
+    if isinstance(value, str):
+        value = (with_tolerance(value) or (value,))[0]
+        found = re.fullmatch(rf"\s*{_NUMBER}(.*)", value)
+        return _way(found[4].strip()) if found and re.match(PATTERN, value) else None
+    return _way(str(value.units)) if hasattr(value, "dimensionality") else None
+
+
+@lru_cache(maxsize=256)
+def _way(unit: str) -> str | None:
+    try:
+        given = _registry().Quantity(1.0, _registry().parse_units(_TURNS.get(re.sub(r"\s", "", unit), unit).replace("%", "percent")))
+    except Exception:  # as in `si_value`
+        return None
+    if given.is_compatible_with("s"):
+        return "s"
+    if not given.is_compatible_with("rad/s"):
+        return None
+    names = str(given.units).lower()
+    turns = any(word in names for word in ("turn", "rev", "hertz", "rps", "rpm"))
+    return "rpm" if turns and ("minute" in names or names == "rpm") else "Hz" if turns else "rad/s" if names == "radian / second" else None
+
+
+def with_tolerance(text: str) -> tuple[str, str] | None:
+    """The value and the tolerance in text such as ``38 m +- 0.5 m``, with ``±`` or ``+/-``; None if it has none.
+
+    Either may have the unit of both, and the value may be left out: ``+- 0.5 m`` gives an empty text for it.
+    """
+    found = _TOLERANCE.fullmatch(text.strip())
+    if found is None:
+        return None
+    value, spread, unit = found[1], found[2], found[3] or ""
+    own = [re.fullmatch(rf"{_NUMBER}\s*(.*)", part) for part in (value, spread)]
+    units = [part[4] if part else "" for part in own]
+    value = f"{value} {unit or units[1]}".strip() if own[0] and not units[0] and units[1] != "%" else value
+    spread = f"{spread} {unit or units[0]}".strip() if own[1] and not units[1] else spread
+    return value, spread
+
 
 def unpacked(value: Any) -> Any:
     """Return an array of text as a list in which plain numbers are floats again, one of objects with units as a list.
@@ -116,6 +170,9 @@ def in_si(caller: str, name: str, value: Any, quantity: str = "") -> Any:
 @lru_cache(maxsize=4096)  # pint takes half a millisecond, and files repeat their numbers
 def si_value(text: str, quantity: str) -> float:
     """The number of `text` in SI units; a ValueError says what is wrong with the text."""
+    if len(text) <= 100 and re.match(PATTERN, text) is None and (parts := with_tolerance(text)) is not None and parts[0]:
+        where = "in uncertainty, in fit, or as uniform or normal in a study"
+        raise ValueError(f'must be a number without a tolerance, got "{text}"; write "{parts[0]}" here, and the tolerance {where}')
     if len(text) > 100 or re.match(PATTERN, text) is None:
         point = re.sub(r"(?<=\d),(?=\d)", ".", text, count=1)
         number = re.fullmatch(_NUMBER, point.strip())
@@ -126,6 +183,11 @@ def si_value(text: str, quantity: str) -> float:
     number = re.match(rf"\s*{_NUMBER}", text)
     assert number is not None
     unit = text[number.end() :].strip()
+    if SI[quantity][1] == "an angular speed" and (bare := re.sub(r"\s", "", unit)) in (*_TURNS, *_UNCLEAR):
+        if bare in _UNCLEAR:
+            each = number.group().strip()
+            raise ValueError(f'may be turns or radians per second: write "{each} Hz" or "{each} rad/s", got "{text}"')
+        unit = _TURNS[bare]
     if unit == "%" and quantity == "rtol":
         return float(number.group()) / 100
     registry = _registry()
@@ -139,6 +201,11 @@ def si_value(text: str, quantity: str) -> float:
 def _converted(given: Any, quantity: str, text: str = "") -> Any:
     """Return the numbers of a pint quantity in SI units, of the quantity that is wanted."""
     unit, kind, example = SI[quantity]
+    if kind == "an angular speed" and given.is_compatible_with("s"):  # a period
+        period = given.m_as("s")
+        if not np.all(period):
+            raise ValueError(f'must be {kind} such as "{example}", or a period that is not 0, got "{text or given}"')
+        return 2 * math.pi / period
     if not given.is_compatible_with(unit or "dimensionless"):
         hint = "; give it as mass" if quantity.endswith("weight") and given.is_compatible_with("kg") else ""
         by_weight = quantity.endswith("mass") and quantity.replace("mass", "weight") in SI
