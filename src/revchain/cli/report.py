@@ -18,6 +18,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from ..closed_forms.governor import SleeveGovernor
 from ..results.explanation import Explanation
 from ..results.modes import Modes
 from ..results.motions import Response, Swing
@@ -38,7 +39,9 @@ class Report:
     def __init__(self, scene: Scene, stem: str, found: Any, units: str) -> None:
         self.scene = scene
         self.title = scene.title or stem
-        self.system = scene.system().describe()
+        system = scene.system()
+        self.system = system.describe()
+        self.numbers = {"system": "SleeveGovernor", **system._facts()} if isinstance(system, SleeveGovernor) else system.to_dict()
         self.found = found
         self.units = units
         self.sheet: Sheet = found._sheet(brief=True)
@@ -98,14 +101,14 @@ class Report:
             return re.sub(r" +$", "", file.getvalue(), flags=re.MULTILINE)
         if kind == ".csv":
             return as_csv(self._all)
-        data = {"title": self.title, "system": self.system, **as_dict(self._all)}
+        data = {"title": self.title, "description": self.system, "system": self.numbers, **as_dict(self._all)}
         # msgspec writes null for a number that is not finite
         return msgspec.json.format(msgspec.json.encode(data), indent=2).decode() + "\n"
 
     @cached_property
     def _all(self) -> Sheet:
         """All columns for files, apart from the shapes of modes."""
-        sheet: Sheet = self.found._sheet()
+        sheet: Sheet = self.found._full()
         columns = [column for column in sheet.columns if (column.name, *column.axes) != ("shape", "pin")]
         return replace(sheet, columns=columns)
 
