@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..systems.extras import require
-from ..systems.numbers import Numbers, integer, listed, shown, word
+from ..systems.numbers import Floats, Numbers, integer, listed, shown, word
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -152,6 +152,22 @@ def thinned(curve: Numbers) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
         stretch = curve[begin:end]
         chosen.update((int(begin + stretch.argmin()), int(begin + stretch.argmax())))
     return np.array(sorted(chosen), dtype=np.intp)
+
+
+def apart(places: Any, gap: float) -> Floats:
+    """Return the places moved as little as possible (in least squares) so that no two are nearer than the gap."""
+    at = np.asarray(places, float)
+    order = np.argsort(at, kind="stable")
+    groups: list[list[float]] = []  # sums and numbers of places that move together
+    for shift, place in enumerate(at[order]):
+        groups.append([place - shift * gap, 1.0])
+        while len(groups) > 1 and groups[-2][0] / groups[-2][1] > groups[-1][0] / groups[-1][1]:
+            last = groups.pop()
+            groups[-1] = [groups[-1][0] + last[0], groups[-1][1] + last[1]]
+    moved = np.empty_like(at)
+    level = [total / count for total, count in groups for _ in range(int(count))]
+    moved[order] = np.array(level) + gap * np.arange(at.size) if at.size else at
+    return moved
 
 
 def keep_room(ax: Axes, share: float = 0.35) -> None:
