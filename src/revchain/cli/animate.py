@@ -81,7 +81,7 @@ def animate(
             raise Stop(f"{scene}: {shown}: {str(error).partition(': ')[2]}", ExitCode.WRONG_USAGE) from None
     if not quiet:
         print(f"wrote {out}")
-    Report(read, scene.stem, found, "deg").check(scene)
+    Report(read, scene.stem, shown, found, "deg").check(scene)
 
 
 def _numbers(text: str) -> list[int]:

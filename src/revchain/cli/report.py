@@ -12,17 +12,15 @@ from textwrap import fill
 from typing import Any
 
 import msgspec
-import numpy as np
 from rich import box
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
 from ..closed_forms.governor import SleeveGovernor
-from ..results.explanation import Explanation
-from ..results.modes import Modes
-from ..results.motions import Response, Swing
-from ..results.sheet import Column, Sheet, as_csv, as_dict, cells
+from ..results.excel import pages_of, write_workbook
+from ..results.sheet import Sheet, as_csv, as_dict, cells
+from ..scenes.report import drawn, in_radians, sheets_of, shortfall
 from ..scenes.system import in_file
 from ..scenes.scene import Scene
 from . import ExitCode
@@ -30,14 +28,13 @@ from .frame import PICTURES, Stop, save_picture
 
 NARROWEST = 80  # smallest width of a terminal in columns; numbers are never cut
 HEADING = 10  # width of a line of a heading in columns
-MANY_TIMES = 12
 
 
 class Report:
     """The answer to one question of a scene: as text, JSON, CSV and picture."""
 
-    def __init__(self, scene: Scene, stem: str, found: Any, units: str) -> None:
-        self.scene = scene
+    def __init__(self, scene: Scene, stem: str, question: str, found: Any, units: str) -> None:
+        self.scene, self.question = scene, question
         self.title = scene.title or stem
         system = scene.system()
         self.system = system.describe()
@@ -49,45 +46,26 @@ class Report:
     @cached_property
     def tables(self) -> list[tuple[Text | None, Table | None]]:
         """The printed tables: the heading and the grid of each, None where it has none."""
-        sheets: list[Sheet] = [self.sheet]
-        for name in ("certificate", "other", "governor"):
-            part = getattr(self.found, name, None)
-            if part is not None and (name != "other" or len(part)):
-                sheets.append(part._sheet())
-        if isinstance(self.found, Response) and self.found.angular_speed.size == 1:
-            sheets.append(_pins(self.found))
         tables: list[tuple[Text | None, Table | None]] = []
-        for sheet in sheets:
+        for sheet in sheets_of(self.found):
             heading = Text(sheet.heading, style="" if sheet.good else "bold yellow") if sheet.heading else None
             tables.append((heading, _grid(sheet, self.units)))
         return tables
 
     def check(self, path: Path) -> None:
         """Raise Stop with exit code 1 unless everything was found and proved."""
-        missing = getattr(self.found, "missing", ())
-        if self.sheet.good and not missing:
-            return
-        what = "not proved to be all there is"
-        if isinstance(self.found, Explanation):
-            best = self.found.chosen
-            what = "no method applies"
-            if best:
-                what = f"no method keeps the tolerance; the best bound is {best.error_bound:.1e}"
-        if missing:
-            what = f"no shape was found with {', '.join(map(str, missing))} half wave{'s' * (list(missing) != [1])}"
-        if isinstance(self.found, Modes):
-            what = "the tolerance is not met"
-            if self.found.rtol:
-                what += f": asked {self.found.rtol:g}, reached {self.found.error_bound.max():.1e}"
-        raise Stop(f"{path}: {what}", ExitCode.TOLERANCE_NOT_MET)
+        if short := shortfall(self.found):
+            raise Stop(f"{path}: {short}", ExitCode.TOLERANCE_NOT_MET)
 
     def write(self, outputs: list[tuple[Path, str]], asides: list[Path]) -> None:
         """Write the outputs, each a file and its kind, to the temporary files beside them."""
         for aside, (file, kind) in zip(asides, outputs, strict=True):
             try:
                 if kind in PICTURES:
-                    axes = self.found.plot(**_drawn(self.found))
+                    axes = self.found.plot(**drawn(self.found))
                     save_picture(axes, self.title, aside)
+                elif kind == ".xlsx":
+                    write_workbook(aside, pages_of({self.question: self.found}, self.title), file)
                 else:
                     aside.write_text(self.text(kind), encoding="utf-8")
             except OSError as error:  # may name the temporary file, or none
@@ -128,32 +106,9 @@ class Report:
             console.print(Text(note, style="dim"))
 
 
-def _drawn(found: Any) -> dict[str, Any]:
-    """How an answer is drawn: a swing at many times, whose shapes hide one another, as offsets against time."""
-    if not isinstance(found, Swing) or found.time.size <= MANY_TIMES:
-        return {}
-    size = found.system.size
-    return {"kind": "time", "pins": sorted({0, size // 3, 2 * size // 3})}
-
-
-def _pins(found: Response) -> Sheet:
-    """The offset of each pin at one speed."""
-    offset = np.atleast_1d(found.offset.reshape(-1))
-    pins = Column("pin", np.atleast_1d(found.pins), "pin (0: free end)")
-    columns = [pins, Column("offset", np.abs(offset) if np.iscomplexobj(offset) else offset, "from the axis (m)", 10)]
-    if np.iscomplexobj(offset):
-        phase = np.angle(offset)
-        columns.append(Column("phase", phase, "ahead (°)", 4, shown=np.degrees(phase), unit="rad"))
-    return Sheet("pin", "a resonance: it goes out without bound" if found.resonant else "", columns)
-
-
 def _grid(sheet: Sheet, units: str) -> Table | None:
     """The table of a sheet, with its angles in degrees or radians; None if it has no rows."""
-    if units == "rad":
-        turned = [column for column in sheet.columns if "(°)" in column.heading]
-        in_rad = {id(each): each._replace(heading=each.heading.replace("(°)", "(rad)"), shown=None) for each in turned}
-        sheet = replace(sheet, columns=[in_rad.get(id(column), column) for column in sheet.columns])
-    headings, rows, notes = cells(sheet)
+    headings, rows, notes = cells(sheet := in_radians(sheet) if units == "rad" else sheet)
     if not rows:
         return None
     hidden = len(sheet) - len(rows)
