@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -12,7 +13,7 @@ from ..closed_forms.table import described
 from ..systems.numbers import word
 from .modes import ARM, beside_at_rest, draw_spring
 from .style import AXIS, MOST_PINS_AS_DOTS, SpeedUnit, axes_or_new, half_waves_style, house, keep_room
-from .style import legend_outside, new_figure, thinned
+from .style import legend_outside, new_figure, plain, thinned
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -76,17 +77,24 @@ def plot_drag_shape(shape: DragShape, ax: Axes | None = None, *, view: str | Non
     >>> carousel = rc.Rig(rc.Chain(mass=80.0, length=4.0), support=rc.Support(radius=3.0))
     >>> ax = rc.drag_shape(carousel, rc.Drag(1.0, area=0.6), angular_speed="12 rpm").plot(view="above")
     >>> ax.get_ylabel()
-    'distance in the sense of motion (m)'
+    'distance in the\\nsense of motion (m)'
     """
     chosen = None if view is None else word("revchain.DragShape.plot", "view", view, ("side", "above"))
     if ax is None and chosen is None:
-        figure = new_figure(6.0, 8.0)
+        x, y, z = (float(np.ptp(np.append(along, 0.0))) for along in shape.position.T)
+        least = 0.25 * max(x, y, z)
+        tall = max(z, least), max(1.4 * y, least)
+        scale = min(4.8 / max(x, least), 6.4 / sum(tall))  # inches for a metre
+        figure = new_figure(float(np.clip(scale * x + 1.4, 4.0, 6.2)), scale * sum(tall) + 1.6)
         side: Axes
-        side, above = figure.subplots(2, 1, sharex=True)
+        side, above = figure.subplots(2, 1, height_ratios=tall)
         for each in (side, above):
             each.spines[["top", "right"]].set_visible(False)
         _draw_from(shape, above, "above")
-        _draw_from(shape, side, "side").set_xlabel("")
+        _draw_from(shape, side, "side")
+        ends = [min(side.get_xlim()[0], above.get_xlim()[0]), max(side.get_xlim()[1], above.get_xlim()[1])]
+        for each in (side, above):
+            each.set_xlim(ends)
         return side
     return _draw_from(shape, axes_or_new(ax, 6.0, 5.0), chosen or "above")
 
@@ -98,10 +106,12 @@ def _draw_from(shape: DragShape, ax: Axes, view: str) -> Axes:
     ax.plot([0.0, x[-1]], [0.0, across[-1]], **ARM)
     ax.plot(x, across, color=house(0), linewidth=1.4, marker=dots, markersize=3.0)
     ax.plot(x[-1], across[-1], marker="v", color="black", markersize=7.0, clip_on=False)
-    ax.set_aspect("equal", adjustable="datalim")
+    ax.set_aspect("equal")
+    ax.margins(0.08)
     if view == "side":
         ax.axvline(0.0, **AXIS)
-        ax.set(xlabel="outward distance (m)", ylabel="depth below the support (m)")
+        ax.set(xlabel="outward distance (m)", ylabel="depth below\nthe support (m)")
+        keep_room(ax)
         ax.yaxis.set_inverted(True)
         return ax
     ax.plot(0.0, 0.0, marker="+", color="0.4", markersize=9.0)
@@ -112,7 +122,8 @@ def _draw_from(shape: DragShape, ax: Axes, view: str) -> Axes:
     top = float(np.hypot(x[-1], y[-1]))
     ax.annotate("", (top * np.cos(0.3), top * np.sin(0.3)), (top * np.cos(0.1), top * np.sin(0.1)),
                 arrowprops={"arrowstyle": "->", "color": "0.4"})
-    ax.set(xlabel="outward distance (m)", ylabel="distance in the sense of motion (m)")
+    ax.set(xlabel="outward distance (m)", ylabel="distance in the\nsense of motion (m)")
+    keep_room(ax)
     return ax
 
 
@@ -236,7 +247,11 @@ def _draw_branches(branches: Sequence[Branch], ax: Axes | None, quantity: str | 
         if branch.mode is None and folds.size:
             births.append((float(unit.of(branch.angular_speed[folds].min())), colour))
     _mark_births(ax, births)
-    ax.set(xlabel=unit.label, ylabel=words_of(quantity, all(branch.system.by_mass for branch in branches)))
+    label = words_of(quantity, all(branch.system.by_mass for branch in branches))
+    names = getattr(branches[0].system._base, "names", None) if len(branches) else None
+    if names is not None and names[0] and quantity == "lowest_inclination":
+        label = plain(textwrap.fill(f"inclination of {names[0]} (degrees)", 40))
+    ax.set(xlabel=unit.label, ylabel=label)
     ax.grid(color="0.9", linewidth=0.6)
     ax.set_axisbelow(True)
     if named:
