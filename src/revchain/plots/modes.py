@@ -19,8 +19,8 @@ from ..results.sheet import digits
 from ..systems.numbers import integer, listed, shown
 from .forms import WIDEST_FORM, colour_of, draw_form, extent_of, form_of, forms, start_of, unit_of
 from .style import (
-    AXIS, GREEN, HOUSE, MOST_PINS_AS_DOTS, MOST_POINTS, TIMED_UNITS, WIDEST, SpeedUnit, apart, axes_or_new, new_figure,
-    plain, thinned, with_speeds,
+    AXIS, GREEN, HOUSE, MOST_PINS_AS_DOTS, MOST_POINTS, TIMED_UNITS, WIDEST, SpeedUnit, apart, axes_or_new, figure_of, moved_by,
+    new_figure, plain, thinned, with_speeds,
 )
 
 if TYPE_CHECKING:
@@ -246,21 +246,15 @@ class Straight:
     def _write(self, ax: Axes, side: int, links: Whole, across: Floats, names: list[str]) -> None:
         """Write the names of some links beside their bodies, apart from each other, with a line where one had to move."""
         low, high = self._ends()
-        line = (high - low) * LINE_HEIGHT / (0.8 * float(ax.get_figure(root=True).get_size_inches()[1]))
+        line = (high - low) * LINE_HEIGHT / (0.8 * float(figure_of(ax).get_size_inches()[1]))
         middle, far = self._middles()[links], self.beside()
         lines = np.array([1 + names[link].count("\n") for link in links])
         beside: dict[str, Any] = {"ha": "left" if side > 0 else "right", "va": "center", "fontsize": "small"}
         for link, level, place in zip(links, middle, apart(middle, line * (lines + 0.3), low, high), strict=True):
             x, moved = float(across[link] + side * far), abs(place - level) > line
             leader = {"arrowstyle": "-", "color": "0.6", "linewidth": 0.6, "shrinkA": 0.0, "shrinkB": 1.0} if moved else None
-            away = self._beside(ax, side * (22 if moved else 9))
+            away = moved_by(ax, side * (22 if moved else 9))
             ax.annotate(names[link], (x, level), (x, place), textcoords=away, arrowprops=leader, **beside)
-
-    def _beside(self, ax: Axes, points: float) -> Any:
-        """The coordinates of the drawing, moved sideways by so many points."""
-        from matplotlib.transforms import offset_copy
-
-        return offset_copy(ax.transData, ax.get_figure(root=True), points, 0.0, units="points")
 
 
 def rods_of(base: Any) -> Floats:

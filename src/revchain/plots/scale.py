@@ -13,7 +13,7 @@ from ..systems.numbers import Floats
 from .forms import draw_form, extent_of
 from .forms import forms as table
 from .modes import BACKWARD, FLUID, FORWARD, JOINT, LINK, ROD, Straight, draw_spring, floating, rods_of
-from .style import AXIS, apart, new_figure, plain
+from .style import AXIS, apart, moved_by, new_figure, plain
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -64,27 +64,21 @@ class _Page:
         extra = max(0.6 * self.inch - wide, 0.0) / 2, max(0.6 * self.inch - tall, 0.0) / 2
         self.ax.set(xlim=(left - extra[0], right + extra[0]), ylim=(low - extra[1], high + extra[1]))
 
-    def beside(self, x: float = 0.0, y: float = 0.0) -> Any:
-        """The coordinates of the drawing, moved by so many points."""
-        from matplotlib.transforms import offset_copy
-
-        return offset_copy(self.ax.transData, self.ax.figure, x, y, units="points")
-
     def dimension(self, begin: tuple[float, float], end: tuple[float, float], text: str, away: float, at: float | None = None) -> None:
         """Draw a dimension line between two points, moved away by points (upright ones to the left), with its text at a level."""
         upright = begin[0] == end[0]
-        moved = self.beside(-away, 0.0) if upright else self.beside(0.0, away)
-        near = self.beside(-away - 3, 0.0) if upright else self.beside(0.0, away + 3)
+        moved = moved_by(self.ax, -away, 0.0) if upright else moved_by(self.ax, 0.0, away)
+        near = moved_by(self.ax, -away - 3, 0.0) if upright else moved_by(self.ax, 0.0, away + 3)
         arrow = DIMENSION | {"shrinkA": 0.0, "shrinkB": 0.0}
         self.ax.annotate("", end, begin, xycoords=moved, textcoords=moved, arrowprops=arrow, annotation_clip=False)
         for point in (begin, end):  # extension lines
             self.ax.annotate(
-                "", point, point, xycoords=near, textcoords=self.beside(-4, 0) if upright else self.beside(0, 4),
+                "", point, point, xycoords=near, textcoords=moved_by(self.ax, -4, 0) if upright else moved_by(self.ax, 0, 4),
                 arrowprops={"arrowstyle": "-", "color": "0.6", "linewidth": 0.5, "shrinkA": 0.0, "shrinkB": 0.0}, annotation_clip=False,
             )  # fmt: skip
         middle = ((begin[0] + end[0]) / 2, (begin[1] + end[1]) / 2 if at is None else at)
-        place = self.beside(-away - 5, 0.0) if upright else self.beside(0.0, away + 4)
-        align = {"ha": "right", "va": "center"} if upright else {"ha": "center", "va": "bottom"}
+        place = moved_by(self.ax, -away - 5, 0.0) if upright else moved_by(self.ax, 0.0, away + 4)
+        align: dict[str, Any] = {"ha": "right", "va": "center"} if upright else {"ha": "center", "va": "bottom"}
         box = {"facecolor": "white", "edgecolor": "none", "pad": 0.5}
         self.ax.annotate(text, middle, xycoords=place, fontsize=LETTERS, color="0.15", bbox=box, annotation_clip=False, **align)
 
@@ -98,7 +92,7 @@ class _Page:
         for level, place, text in zip(levels, apart(levels, gap), folded, strict=True):
             moved = abs(place - level) > 0.2 * gap
             self.ax.annotate(
-                plain(text), (x, level), (x, place), xycoords=self.beside(7, 0), textcoords=self.beside(20 if moved else 10, 0),
+                plain(text), (x, level), (x, place), xycoords=moved_by(self.ax, 7, 0), textcoords=moved_by(self.ax, 20 if moved else 10, 0),
                 fontsize=LETTERS, va="center", ha="left", annotation_clip=False,
                 arrowprops={"arrowstyle": "-", "color": "0.6", "linewidth": 0.5, "shrinkA": 1.0, "shrinkB": 0.0} if moved else None,
             )  # fmt: skip
@@ -252,7 +246,7 @@ class _Drawing:
         else:
             draw_spring(ax, wall, at, self.size)
             if not self.radius:
-                ax.vlines(wall, top - 0.03 * self.size, top + 0.03 * self.size, clip_on=False, **{"color": "black", "linewidth": 2.5})
+                ax.vlines(wall, top - 0.03 * self.size, top + 0.03 * self.size, color="black", linewidth=2.5, clip_on=False)
         ax.plot(at, top, marker="s", color="black", markersize=7.0, zorder=4, clip_on=False)
 
     def _dimensions(self, page: _Page) -> None:

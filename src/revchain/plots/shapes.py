@@ -92,9 +92,9 @@ def plot_drag_shape(shape: DragShape, ax: Axes | None = None, *, view: str | Non
             each.spines[["top", "right"]].set_visible(False)
         _draw_from(shape, above, "above")
         _draw_from(shape, side, "side")
-        ends = [min(side.get_xlim()[0], above.get_xlim()[0]), max(side.get_xlim()[1], above.get_xlim()[1])]
+        ends = min(side.get_xlim()[0], above.get_xlim()[0]), max(side.get_xlim()[1], above.get_xlim()[1])
         for each in (side, above):
-            each.set_xlim(ends)
+            each.set_xlim(*ends)
         return side
     return _draw_from(shape, axes_or_new(ax, 6.0, 5.0), chosen or "above")
 

@@ -158,6 +158,18 @@ def thinned(curve: Numbers) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
     return np.array(sorted(chosen), dtype=np.intp)
 
 
+def figure_of(ax: Axes) -> Figure:
+    """Return the figure on which axes lie, however deep in parts of it."""
+    figure = ax.get_figure(root=True)
+    assert figure is not None
+    return figure
+
+
+def moved_by(ax: Axes, x: float = 0.0, y: float = 0.0) -> Any:
+    """Return the coordinates of the data, moved by so many points."""
+    return require("matplotlib.transforms", "plot", "plotting").offset_copy(ax.transData, figure_of(ax), x, y, units="points")
+
+
 def apart(places: Any, size: Any, low: float = -np.inf, high: float = np.inf) -> Floats:
     """Return the places of texts of these sizes, moved as little as possible (in least squares) until none overlap.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -51,7 +51,7 @@ def pages_of(results: Mapping[str, Result], title: str = "") -> list[Page]:
     from .. import __version__
 
     first = next(iter(results.values()))
-    system = getattr(first, "system", getattr(first, "governor", first))
+    system: Any = getattr(first, "system", getattr(first, "governor", first))
     facts, links = parts_of(system)
     rows: list[tuple[str, Any, str]] = [("title", title, "")] * bool(title)
     rows += [("description", system.describe(), ""), ("revchain", __version__, ""), *facts]
@@ -91,16 +91,17 @@ def _tables(name: str, sheet: Sheet) -> list[Page]:
     for column in arrays:
         values = _padded(column.values)
         if values is not None and values.shape[1]:
-            wide = Sheet(sheet.row, "", [column._replace(values=values)], named=_named(sheet, values.shape[1]))
+            wide = Sheet(sheet.row, "", [column._replace(values=values)], named=_named(sheet))
             pages.append(Page(f"{name} {column.name}", [*keys, *_single(wide)]))
     return pages
 
 
-def _named(sheet: Sheet, width: int) -> Any:
-    """The names of the numbers along an axis; their numbers from 1 where the system has none, or where there are many."""
+def _named(sheet: Sheet) -> Callable[[str, int], str]:
+    """The names of the numbers along an axis; their numbers from 1 where the system has none."""
     if sheet.named is None:
         return lambda axis, number: str(number + 1)
-    return lambda axis, number: sheet.named(axis, number) or str(number + 1)  # type: ignore[misc]
+    named = sheet.named
+    return lambda axis, number: named(axis, number) or str(number + 1)
 
 
 def _padded(rows: Any) -> Floats | None:

@@ -8,7 +8,7 @@ import io
 import os
 import re
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from datetime import date
 from functools import cache
@@ -78,11 +78,6 @@ TERMS = {
     "node": "A point of a mode that stays on the axis.",
     "error bound": "The true value differs from the printed one by at most this amount. It covers rounding, not the data.",
 }
-QUESTION_OF = {
-    Modes: "modes", SteadyShapes: "shapes", Response: "response", Swing: "swing", Branches: "branches", Campbell: "campbell",
-    DragShape: "drag", GovernorEquilibria: "equilibria", SleeveGovernor: "equilibria",
-}  # fmt: skip
-
 
 def sheets_of(found: Any) -> list[Sheet]:
     """Return the tables that show an answer: its own, its proof, other solutions, the governor, the pins at one speed."""
@@ -165,11 +160,11 @@ def verdicts(found: Any) -> list[Verdict]:
     """Return what is proved about an answer, and what is not, in words for a reader who does not know the program."""
     short = shortfall(found)
     said = [Verdict("open", _sentence(short))] if short else []
-    maker = {
+    makers: dict[type, Callable[[Any], list[Verdict]]] = {
         Modes: _of_modes, SteadyShapes: _of_shapes, Response: _of_response, Swing: _of_swing, Branches: _of_branches,
         Campbell: _of_campbell, DragShape: _of_drag, GovernorEquilibria: _of_governor,
-    }.get(type(found))  # fmt: skip
-    return [*said, *(maker(found) if maker is not None else ())]
+    }  # fmt: skip
+    return [*said, *makers.get(type(found), lambda _: [])(found)]
 
 
 def _of_modes(found: Modes) -> list[Verdict]:
