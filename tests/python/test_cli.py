@@ -303,7 +303,7 @@ REFUSED = {  # command lines that end in one sentence without an answer
     "run study.toml": "is of a study, not of a scene: revchain sweep study.toml",
     "sweep swinging.toml": "is of a scene, not of a study: revchain run swinging.toml",
     "sweep study.toml --chunk 0": "'--chunk'",
-    "sweep study.toml --out a.txt": "a.txt must end in .csv, .parquet or .nc",
+    "sweep study.toml --out a.txt": "a.txt must end in .csv, .parquet, .xlsx or .nc",
     "sweep study.toml --out study.toml": "study.toml: the study itself would be overwritten",
     "frobnicate": "no such command 'frobnicate'; see revchain --help",
     "--colour": "no such option: --colour; see revchain --help",

@@ -6,7 +6,7 @@ from __future__ import annotations
 import inspect
 import re
 import sys
-from contextlib import suppress
+from contextlib import nullcontext, suppress
 from pathlib import Path
 from typing import Annotated, Any, Literal, get_args, get_origin
 
@@ -65,7 +65,7 @@ def run(
     quiet: Quiet = False,
 ) -> None:
     """Answer all questions of a scene; find its modes (of a governor its equilibria) if it has none."""
-    wholes = checked_wholes(scene, report, xlsx)
+    wholes = checked_wholes(scene, report, xlsx) if report or xlsx else []
     checked, folder = read_scene(scene, gravity, units), Path("out", scene.stem) if out is None else out
     kinds = [".txt", ".json", ".csv", ".png"]
     try:
@@ -78,7 +78,7 @@ def run(
     folder.mkdir(parents=True, exist_ok=True)
     failed: list[Stop] = []
     answers: dict[str, Any] = {}
-    with written_aside(*wholes) as asides:  # opened before the questions are answered
+    with written_aside(*wholes) if wholes else nullcontext([]) as asides:  # opened before the questions are answered
         for nth, question in enumerate(checked._questions):
             outputs = [(folder / f"{question}{kind}", kind) for kind in kinds]
             try:
@@ -90,7 +90,8 @@ def run(
             except Stop as stop:
                 answers.setdefault(question, str(stop).removeprefix(f"{scene}: ").removeprefix(f"{question}: "))
                 failed.append(stop)
-        write_wholes(checked, answers, wholes, asides, units, gravity)
+        if wholes:
+            write_wholes(checked, answers, wholes, asides, units, gravity)
     if wholes and not quiet:
         print(f"wrote {', '.join(map(str, wholes))}")
     if failed:

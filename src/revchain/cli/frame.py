@@ -12,7 +12,6 @@ from typing import Annotated, Any, NoReturn, ParamSpec
 
 import typer
 
-from ..plots.style import plain
 from ..scenes.error import SceneError
 from ..systems.extras import require
 from . import MEANING, ExitCode
@@ -157,7 +156,7 @@ def common(
 
 def save_picture(axes: Any, title: str, path: Path) -> None:
     """Write a picture with its title."""
-    axes.set_title(plain(title), wrap=True)
+    axes.set_title(title, wrap=True, parse_math=False)
     axes.figure.savefig(path, dpi=200)
 
 

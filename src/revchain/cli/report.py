@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import io
+import math
 import re
 from dataclasses import replace
 from functools import cached_property
@@ -20,7 +21,7 @@ from rich.text import Text
 from ..closed_forms.governor import SleeveGovernor
 from ..results.excel import pages_of, write_workbook
 from ..results.sheet import Sheet, as_csv, as_dict, cells
-from ..scenes.report import drawn, in_radians, sheets_of, shortfall
+from ..scenes.report import drawn, further_sheets, in_radians, shortfall
 from ..scenes.system import in_file
 from ..scenes.scene import Scene
 from . import ExitCode
@@ -36,9 +37,7 @@ class Report:
     def __init__(self, scene: Scene, stem: str, question: str, found: Any, units: str) -> None:
         self.scene, self.question = scene, question
         self.title = scene.title or stem
-        system = scene.system()
-        self.system = system.describe()
-        self.numbers = {"system": "SleeveGovernor", **system._facts()} if isinstance(system, SleeveGovernor) else system.to_dict()
+        self.system: str = getattr(found, "description", "") or scene.system().describe()  # modes know it
         self.found = found
         self.units = units
         self.sheet: Sheet = found._sheet(brief=True)
@@ -47,22 +46,22 @@ class Report:
     def tables(self) -> list[tuple[Text | None, Table | None]]:
         """The printed tables: the heading and the grid of each, None where it has none."""
         tables: list[tuple[Text | None, Table | None]] = []
-        for sheet in sheets_of(self.found):
+        for sheet in (self.sheet, *further_sheets(self.found)):
             heading = Text(sheet.heading, style="" if sheet.good else "bold yellow") if sheet.heading else None
             tables.append((heading, _grid(sheet, self.units)))
         return tables
 
     def check(self, path: Path) -> None:
         """Raise Stop with exit code 1 unless everything was found and proved."""
-        if short := shortfall(self.found):
-            raise Stop(f"{path}: {short}", ExitCode.TOLERANCE_NOT_MET)
+        if not self.sheet.good or getattr(self.found, "missing", ()):
+            raise Stop(f"{path}: {shortfall(self.found)}", ExitCode.TOLERANCE_NOT_MET)
 
     def write(self, outputs: list[tuple[Path, str]], asides: list[Path]) -> None:
         """Write the outputs, each a file and its kind, to the temporary files beside them."""
         for aside, (file, kind) in zip(asides, outputs, strict=True):
             try:
                 if kind in PICTURES:
-                    axes = self.found.plot(**drawn(self.found))
+                    axes = self.found.plot(**(drawn(self.found) if hasattr(self.found, "time") else {}))
                     save_picture(axes, self.title, aside)
                 elif kind == ".xlsx":
                     write_workbook(aside, pages_of({self.question: self.found}, self.title), file)
@@ -79,9 +78,17 @@ class Report:
             return re.sub(r" +$", "", file.getvalue(), flags=re.MULTILINE)
         if kind == ".csv":
             return as_csv(self._all)
-        data = {"title": self.title, "description": self.system, "system": self.numbers, **as_dict(self._all)}
+        data = {"title": self.title, "description": self.system, "system": {}, **as_dict(self._all)}
+        data["system"] = data["system"] or self._numbers()
         # msgspec writes null for a number that is not finite
         return msgspec.json.format(msgspec.json.encode(data), indent=2).decode() + "\n"
+
+    def _numbers(self) -> dict[str, Any]:
+        """The system in numbers, for an answer that does not hold it; of a governor the arguments of its class."""
+        system = self.scene.system()
+        if not isinstance(system, SleeveGovernor):
+            return system.to_dict()
+        return {"system": "SleeveGovernor", **{name: value for name, value in system._facts().items() if value < math.inf}}
 
     @cached_property
     def _all(self) -> Sheet:

@@ -379,15 +379,16 @@ def plot_modes(
     wide = STRETCH if len({*straight.inverted.tolist()}) > 1 else 1.0
     shapes = [wide * shape / np.abs(shape).max() for shape in np.real(found.shape[rows])]  # that of a cord is largest anywhere
     reach = [(min(-1, shape.min()) - 0.3, max(1, shape.max()) + 0.3) for shape in shapes]
-    narrow = 1.0
-    for _ in range(3):  # names need more room where the columns are narrow
+    narrow, wider = 0.0, 1.0
+    while wider > 1.05 * narrow and narrow < 2.5:  # names need more room where the columns are narrow
+        narrow = wider
         left, right = straight.room(narrow)
         aside = max(0.0, right + 1.1 - SPACING)  # so that the names do not reach the first shape
         room = [(-left, SPACING / 2), *[(-SPACING / 2, SPACING / 2)] * (before - 1), *reach]
         ends = aside + np.cumsum([high - low for low, high in room]) - left
         columns = (ends[-1] + left) / SPACING
         width = _width(labels, columns)
-        narrow = max(1.0, COLUMN * columns / (width - 1.2))
+        wider = max(narrow, COLUMN * columns / (width - 1.2)) if right > SPACING / 2 else narrow
     ticks = [0.0, *(end - high for end, (_, high) in zip(ends[1:], room[1:], strict=True))]
     height = PLOT_HEIGHT + 1.2 if len(labels) > 1 else 0.75 * PLOT_HEIGHT  # of one column the picture would be a tower
     ax = axes_or_new(ax, width, height)

@@ -79,9 +79,9 @@ TERMS = {
     "error bound": "The true value differs from the printed one by at most this amount. It covers rounding, not the data.",
 }
 
-def sheets_of(found: Any) -> list[Sheet]:
-    """Return the tables that show an answer: its own, its proof, other solutions, the governor, the pins at one speed."""
-    sheets: list[Sheet] = [found._sheet(brief=True)]
+def further_sheets(found: Any) -> list[Sheet]:
+    """Return the tables beside that of an answer: its proof, other solutions, the governor, the pins at one speed."""
+    sheets: list[Sheet] = []
     for name in ("certificate", "other", "governor"):
         part = getattr(found, name, None)
         if part is not None and (name != "other" or len(part)):
@@ -494,7 +494,7 @@ def _answer(scene: Scene, question: str, found: Any, units: str) -> str:
         f'<li class="{verdict.kind}"><b>{WORDS[verdict.kind]}.</b> {escape(verdict.sentence)}</li>' for verdict in verdicts(found)
     )
     parts.append(f'<ul class="verdicts">{said}</ul>' if said else "")
-    sheets = sheets_of(found)
+    sheets = [found._sheet(brief=True), *further_sheets(found)]
     for sheet in sheets:
         parts.append(_sheet(in_radians(sheet) if units == "rad" else sheet))
     notes = [in_file(note, scene._bodies()) if scene.order == "support first" else note for note in sheets[0].notes]

@@ -433,9 +433,9 @@ def load_scene(path: str | os.PathLike[str]) -> Scene:
 
 def read(path: str | os.PathLike[str], changed: dict[str, Any]) -> Scene:
     """Read the scene of a file, with other values of some of its keys."""
-    with parse.opened(path) as (raw, problems):
+    with parse.opened(path) as (raw, problems, text):
         scene = Scene._read(raw | changed if isinstance(raw, dict) else raw, os.fspath(path), problems)
-    scene._made()["file"] = os.path.basename(path), parse.text_of(path)
+    scene._made()["file"] = os.path.basename(path), text
     return scene
 
 

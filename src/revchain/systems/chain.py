@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from .. import _core
 from .numbers import Floats, integer, link_arrays, mass_or_weight, real, refuse_beyond_memory, shown, word
 from .numbers import count as checked_count
-from .system import System, plain
+from .system import System
 
 Order = Literal["free end first", "support first"]
 _FREE_END = "free end first"
@@ -544,7 +544,8 @@ class Chain(System):
             "gyration_ratio": high,
             "gyration_ratio_low": low,
         }
-        data: dict[str, Any] = {"links": size, **{name: plain(column) for name, column in columns.items()}}
+        numbers = {name: x.tolist() if isinstance(x, np.ndarray) else x for name, x in columns.items()}
+        data: dict[str, Any] = {"links": size, **numbers}
         more = {"names": self._names and list(self._names), "taper": self.taper}
         return data | {name: value for name, value in more.items() if value is not None}
 
