@@ -171,8 +171,7 @@ def checked_workbook(path: Path) -> None:
     """Check that a workbook can be written."""
     if path.suffix.lower() != ".xlsx":
         raise Stop(f"--xlsx: {path} must end in .xlsx", ExitCode.WRONG_USAGE)
-    for module in ("pandas", "openpyxl"):
-        require(module, "excel", "--xlsx")
+    require("openpyxl", "excel", "--xlsx")
 
 
 def outputs_of(

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Results as workbooks for spreadsheet programs (.xlsx), by pandas and openpyxl."""
+"""Results as workbooks for spreadsheet programs (.xlsx), by openpyxl."""
 
 from __future__ import annotations
 
+import math
 import os
 import re
 from collections.abc import Callable, Iterable, Mapping
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 
 MOST_LINES, MOST_ACROSS, MOST_LETTERS = 1_048_575, 16_384, 31  # rows below the heading, columns, letters of a sheet's name
 LINE = 90  # letters of text in a cell
+MOST_DRESSED = 200  # columns whose widths and headings are set
 PURPOSE = "an .xlsx file"
 UNITS_OF_FACTS = {
     **dict.fromkeys(("gravity", "acceleration"), "m/s^2"),
@@ -60,6 +62,10 @@ def pages_of(results: Mapping[str, Result], title: str = "") -> list[Page]:
         sheet = result._full()
         rows += [("", "", ""), (name, sheet.heading or result._sheet(brief=True).heading, "")]
         rows += [("note", note, "") for note in sheet.notes]
+        rows += [
+            ("note", f"{column.name} has more numbers in a row than a sheet has columns, {MOST_ACROSS:,}: it is not in this file", "")
+            for column in sheet.columns if isinstance(column.values, np.ndarray) and column.values.ndim == 2 and column.values.shape[1] >= MOST_ACROSS
+        ]  # fmt: skip
         rows += _facts(sheet)
         pages += _tables(name, sheet)
         pages += [
@@ -90,7 +96,7 @@ def _tables(name: str, sheet: Sheet) -> list[Page]:
     pages = [Page(name, _single(Sheet(sheet.row, "", [column for column in sheet.columns if not column.axes])))]
     for column in arrays:
         values = _padded(column.values)
-        if values is not None and values.shape[1]:
+        if values is not None and 0 < values.shape[1] < MOST_ACROSS:
             wide = Sheet(sheet.row, "", [column._replace(values=values)], named=_named(sheet))
             pages.append(Page(f"{name} {column.name}", [*keys, *_single(wide)]))
     return pages
@@ -118,7 +124,7 @@ def _padded(rows: Any) -> Floats | None:
 def _single(sheet: Sheet) -> list[Column]:
     """The columns of a table as numbers, under headings with units. Angles are in radians, as in all files."""
     columns = []
-    for column in in_columns(sheet):
+    for column in in_columns(sheet, MOST_ACROSS):
         values = column.values
         if isinstance(values, np.ndarray) and values.dtype == np.longdouble:
             values = values.astype(np.float64)
@@ -136,7 +142,7 @@ def heading_of(column: Column) -> str:
 
 def write_workbook(path: Path, pages: Iterable[Page], asked: str | os.PathLike[str]) -> None:
     """Write the sheets to a file. ValueError if one of them has more rows or columns than a sheet can have."""
-    pandas, openpyxl = (require(name, "excel", PURPOSE) for name in ("pandas", "openpyxl.styles"))
+    openpyxl, styles = (require(name, "excel", PURPOSE) for name in ("openpyxl", "openpyxl.styles"))
     pages, taken = list(pages), set[str]()
     for page in pages:
         lines = len(page.columns[0].values) if page.columns else 0
@@ -145,13 +151,16 @@ def write_workbook(path: Path, pages: Iterable[Page], asked: str | os.PathLike[s
             most = f"{MOST_LINES:,} rows and {MOST_ACROSS:,} columns"
             name = os.fspath(asked)
             raise ValueError(f"{name}: a sheet has at most {most}, got {what} of {page.name}; write a .csv or .nc file")
-    with pandas.ExcelWriter(path, engine="openpyxl") as writer:
-        for page in pages:
-            name = _sheet_name(page.name, taken)
-            table = pandas.DataFrame({k: [_cell(value) for value in column.values] for k, column in enumerate(page.columns)})
-            headings = [heading_of(column) for column in page.columns]
-            table.to_excel(writer, sheet_name=name, index=False, header=headings or True, inf_rep="inf")
-            _dress(writer.sheets[name], openpyxl, page, headings)
+    book = openpyxl.Workbook()
+    book.remove(book.active)
+    for page in pages:
+        sheet = book.create_sheet(_sheet_name(page.name, taken))
+        headings = [_legal(heading_of(column)) for column in page.columns]
+        sheet.append(headings)
+        for row in zip(*[map(_cell, plain(column.values)) for column in page.columns], strict=True):
+            sheet.append(row)
+        _dress(sheet, styles, page, headings)
+    book.save(path)
 
 
 def _cell(value: Any) -> Any:
@@ -160,9 +169,15 @@ def _cell(value: Any) -> Any:
     if isinstance(value, list | tuple | dict):
         value = " ".join(map(repr, value))
     if isinstance(value, str):
-        value = re.sub(r"[\x00-\x08\x0b\x0c\x0e-\x1f]", " ", value)
-        value = value[:32_000]
-    return None if isinstance(value, float) and value != value else value
+        value = _legal(value)[:32_000]
+    if isinstance(value, float) and not math.isfinite(value):
+        return None if value != value else str(value)
+    return value
+
+
+def _legal(text: str) -> str:
+    """The text without characters that a workbook cannot hold."""
+    return re.sub(r"[\x00-\x08\x0b\x0c\x0e-\x1f]", " ", text)
 
 
 def _sheet_name(name: str, taken: set[str]) -> str:
@@ -178,7 +193,7 @@ def _sheet_name(name: str, taken: set[str]) -> str:
 def _dress(cells: Any, styles: Any, page: Page, headings: list[str]) -> None:
     """Make the headings bold and keep them in view, and the columns as wide as what they hold."""
     cells.freeze_panes = "A2"
-    for k, heading in enumerate(headings):
+    for k, heading in enumerate(headings[:MOST_DRESSED]):
         top = cells.cell(1, k + 1)
         top.font, top.border = styles.Font(bold=True), styles.Border(bottom=styles.Side("thin"))
         numbers = isinstance(page.columns[k].values, np.ndarray)
@@ -186,11 +201,13 @@ def _dress(cells: Any, styles: Any, page: Page, headings: list[str]) -> None:
         texts = [str(value) for value in page.columns[k].values[:200] if isinstance(value, str)]
         longest = max([14 if numbers else 8, min(len(heading), 24), *map(len, texts)])
         cells.column_dimensions[top.column_letter].width = min(longest + 2, LINE)
-    for line in cells.iter_rows(min_row=2, max_row=min(cells.max_row, 400)):
-        for cell in line:
-            cell.alignment = styles.Alignment(
-                vertical="top", wrap_text=isinstance(cell.value, str), horizontal="left" if page.name == "system" else None
-            )
+        for number, value in enumerate(page.columns[k].values if not numbers else (), 2):
+            if isinstance(value, str) and value.startswith("="):
+                cells.cell(number, k + 1).data_type = "s"  # a name, no formula
+    if page.name == "system":
+        for line in cells.iter_rows(min_row=2):
+            for cell in line:
+                cell.alignment = styles.Alignment(vertical="top", wrap_text=isinstance(cell.value, str), horizontal="left")
 
 
 def name_of(result: Result) -> str:
@@ -202,7 +219,6 @@ def save_workbook(caller: str, path: str | os.PathLike[str], results: Mapping[st
     """Write results of one system to a workbook; the file is complete or absent."""
     if Path(file_path(caller, "path", path)).suffix.lower() != ".xlsx":
         raise ValueError(f"{caller}: path must end in .xlsx, got {os.fspath(path)}; for other files: save, to_dataframe")
-    for name in ("pandas", "openpyxl"):
-        require(name, "excel", PURPOSE)
+    require("openpyxl", "excel", PURPOSE)
     with naming(path), written_aside(path) as [aside]:
         write_workbook(aside, pages_of(results, title), path)

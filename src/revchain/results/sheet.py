@@ -202,17 +202,17 @@ def finite(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def in_columns(sheet: Sheet) -> list[Column]:
+def in_columns(sheet: Sheet, most: int = MOST_COLUMNS) -> list[Column]:
     """The columns, with one for each pin, link or motion of an array that has a number for each.
 
-    Complex numbers get a column for each part. Arrays along another axis, or with more than `MOST_COLUMNS` numbers in a row,
-    stay as they are.
+    Complex numbers get a column for each part. Arrays along another axis, or with more than `most` numbers in a row, stay as
+    they are.
     """
     columns: list[Column] = []
     for column in sheet.columns:
         values = np.asarray(column.values) if isinstance(column.values, np.ndarray) else None
         parts = [column]
-        if values is not None and values.ndim == 2 and values.shape[1] <= MOST_COLUMNS and sheet.named is not None:
+        if values is not None and values.ndim == 2 and values.shape[1] <= most and sheet.named is not None:
             places = [sheet.named(column.axes[0], number) for number in range(values.shape[1])]
             if all(places):
                 key = [re.sub(r"\W+", "_", place).strip("_") for place in places]

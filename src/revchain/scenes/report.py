@@ -344,7 +344,7 @@ def page_of(scene: Scene, answers: Mapping[str, Any], units: str = "deg", option
         f"<dt>{escape(term.capitalize())}</dt><dd>{escape(meaning)}</dd>"
         for term, meaning in TERMS.items() if term in page.lower() or term.replace("conical ", "") + " <" in page.lower()
     )  # fmt: skip
-    command = f"revchain run {_quoted(name)} --report {_quoted(name.rpartition('.')[0] or name)}.html{options}"
+    command = f"revchain run {_quoted(name)} --report {_quoted((name.rpartition('.')[0] or name) + '.html')}{options}"
     described = f'<p class="lead">{escape(scene.description)}</p>' if scene.description else ""
     return f"""<!DOCTYPE html>
 <html lang="en">

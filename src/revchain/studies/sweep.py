@@ -34,7 +34,7 @@ _CALLER = "revchain.sweep"
 BATCH, ONE_BY_ONE, MOST_CHUNKS = 65536, 100, 10_000  # points in a chunk of a batch, in another chunk; number of chunks
 CHUNKS = "[0-9]*-[0-9]*.npz"
 PACKAGES = {
-    ".csv": ["pyarrow.csv"], ".parquet": ["pyarrow.parquet"], ".nc": ["h5py", "h5netcdf"], ".xlsx": ["pandas", "openpyxl"],
+    ".csv": ["pyarrow.csv"], ".parquet": ["pyarrow.parquet"], ".nc": ["h5py", "h5netcdf"], ".xlsx": ["openpyxl"],
 }  # fmt: skip
 
 
