@@ -6,7 +6,7 @@ from __future__ import annotations
 import inspect
 import re
 import sys
-from contextlib import nullcontext, suppress
+from contextlib import AbstractContextManager, nullcontext, suppress
 from pathlib import Path
 from typing import Annotated, Any, Literal, get_args, get_origin
 
@@ -78,7 +78,8 @@ def run(
     folder.mkdir(parents=True, exist_ok=True)
     failed: list[Stop] = []
     answers: dict[str, Any] = {}
-    with written_aside(*wholes) if wholes else nullcontext([]) as asides:  # opened before the questions are answered
+    opened: AbstractContextManager[list[Path]] = written_aside(*wholes) if wholes else nullcontext([])
+    with opened as asides:  # before the questions are answered
         for nth, question in enumerate(checked._questions):
             outputs = [(folder / f"{question}{kind}", kind) for kind in kinds]
             try:

@@ -53,7 +53,8 @@ class Report:
 
     def check(self, path: Path) -> None:
         """Raise Stop with exit code 1 unless everything was found and proved."""
-        if not self.sheet.good or getattr(self.found, "missing", ()):
+        missing = getattr(self.found, "missing", ())
+        if missing or not self.sheet.good:
             raise Stop(f"{path}: {shortfall(self.found)}", ExitCode.TOLERANCE_NOT_MET)
 
     def write(self, outputs: list[tuple[Path, str]], asides: list[Path]) -> None:
