@@ -261,7 +261,7 @@ def finding(found: Any) -> str:
         for row in range(min(len(found), MOST_NAMED)):
             speed, period = float(found.angular_speed[row]), float(found.period[row])
             way = " forward" * (speed > 0) + " backward" * (speed < 0) if found.has_momentum else ""
-            first.append(f"mode {found.number[row]}{way} {abs(speed):.4g} rad/s ({abs(speed) * 30 / np.pi:.4g} rpm, period {period:.4g} s)")
+            first.append(f"mode {found.number[row]}{way}: {abs(speed):.4g} rad/s ({abs(speed) * 30 / np.pi:.4g} rpm, period {period:.4g} s)")
         more = f"; {len(found) - MOST_NAMED} more" if len(found) > MOST_NAMED else ""
         return _sentence("; ".join(first) + more)
     if isinstance(found, Modes) and found._is_good():
