@@ -156,7 +156,7 @@ def common(
 
 def save_picture(axes: Any, title: str, path: Path) -> None:
     """Write a picture with its title."""
-    axes.set_title(title, wrap=True, parse_math=False)
+    axes.set_title(title.replace("$", r"\$"), wrap=True)  # no mathematics
     axes.figure.savefig(path, dpi=200)
 
 
