@@ -170,9 +170,13 @@ def test_headings_have_units(tmp_path):
     assert book["links"][0] == ["link", "name", "mass (kg)", "length (m)", "centroid (m)", "radius of gyration (m)"]
     assert book["links"][1:] == [[0, "load", 2500, 6, 6, 0], [1, "hook block", 400, 24, 24, 0]]
     assert {"lowest inclination (rad)", "top tension (N)", "error (rad)"} <= {*book["steady shapes"][0]}
-    assert book["steady shapes offset"][0] == ["shape", "offset, free end of load (m)", "offset, pin 1, below hook block (m)", "offset, support (m)"] or (
-        book["steady shapes offset"][0][1].startswith("offset, free end of load")
-    )
+    places = ["offset, free end of load (m)", "offset, pin 1, below hook block (m)", "offset, support (m)"]
+    assert book["steady shapes offset"][0][1:] == places
+    assert book["steady shapes tension"][0][1:] == ["tension, link 0, load (N)", "tension, link 1, hook block (N)"]
+    found = rc.response(CRANE, angular_speed=[1.0, 2.0], support_radius=0.01)
+    found.to_excel(tmp_path / "r.xlsx")
+    assert sheets(tmp_path / "r.xlsx")["response offset"][0] == ["speed (rad/s)", *places]
+    assert found.to_xarray()["offset"].attrs["units"] == "m"
 
 
 def test_a_workbook_of_all_answers(tmp_path, run):
