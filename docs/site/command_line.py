@@ -17,6 +17,9 @@ INTRODUCTION = """# Command line
 The command `revchain` reads [scene files](scene_files.md) and [studies](../studies.md), and answers their questions. The
 examples work in a copy of the repository. `revchain COMMAND --help` prints the same text.
 
+`revchain SCENE` means `revchain run SCENE`, also with the options of `run` after it. A scene is a file whose name ends in
+`.toml` or `.json`, or any other file whose name is not that of a command.
+
 An option that is also a key of the scene replaces the value of the scene. If both are left out, the default applies.
 Numbers are in SI units; with a unit they are text in quotes, such as `"12 rpm"`.
 """

@@ -16,7 +16,10 @@ import matplotlib
 from revchain.plots.style import STYLE
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
-PAGES = ["howto/plots.md", "howto/governor.md", "howto/campbell.md", "howto/drag.md", "tutorial/first_chain.md", "tutorial/carousel.md", "paper.md"]
+PAGES = [
+    *("howto/plots.md", "howto/governor.md", "howto/campbell.md", "howto/drag.md", "tutorial/first_chain.md"),
+    *("tutorial/carousel.md", "chains.md", "paper.md"),
+]
 
 matplotlib.use("agg")
 matplotlib.rcParams.update(STYLE)

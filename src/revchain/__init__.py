@@ -22,7 +22,7 @@ Closed forms
     FunicularPolygon, TransverseModes
 Files
     Scene, load_scene, Study, load_study, sweep, SceneError; of multibody engines to_mjcf, from_mjcf, to_urdf,
-    from_urdf
+    from_urdf, ModelWarning
 C++
     cmake_prefix: the folder of the C++ headers in this package
 
@@ -112,6 +112,7 @@ if _TYPE_CHECKING:
     from .closed_forms.strings import TransverseModes as TransverseModes
     from .closed_forms.strings import funicular_polygon as funicular_polygon
     from .closed_forms.strings import transverse_modes as transverse_modes
+    from .exchange.findings import ModelWarning as ModelWarning
     from .exchange.write import to_mjcf as to_mjcf
     from .exchange.read import from_mjcf as from_mjcf
     from .exchange.read import from_urdf as from_urdf
@@ -119,6 +120,7 @@ if _TYPE_CHECKING:
     from .closed_forms.bell import Strike as Strike
     from .results.shapes import Place as Place
     from .results.branches import StabilityWindow as StabilityWindow
+    from .results.branches import StabilityWindows as StabilityWindows
     from .results.modes import Certificate as Certificate
     from .results.modes import OtherModes as OtherModes
     from .results.storage import load as load
@@ -154,9 +156,11 @@ _LATER = dict.fromkeys(_CLOSED_FORMS, "closed_forms") | {
 _RECEIVED = {  # classes of results that no program makes; `dir` leaves them out
     "Certificate": "results.modes",
     "GovernorEquilibria": "closed_forms.governor",
+    "ModelWarning": "exchange.findings",
     "OtherModes": "results.modes",
     "Place": "results.shapes",
     "StabilityWindow": "results.branches",
+    "StabilityWindows": "results.branches",
     "Strike": "closed_forms.bell",
 }
 _OF_FILES = {"Scene": "scenes.scene", "load_scene": "scenes.scene", "Study": "studies.study", "load_study": "studies.study"}

@@ -99,6 +99,8 @@ TEST_CASE("held cord: branches go through the shapes at a speed, and end where t
         const double last = branch.shapes.back().conical_height;
         CHECK(last < end[k]);
         CHECK(last > 0.9 * end[k]);
+        const auto folded = revchain::stability(rope, branch.shapes.back());  // no mass moves across the axis
+        CHECK((folded.verdict == revchain::Verdict::undecided || !folded.exponents.empty()));
         for (std::size_t i = 0; i < branch.shapes.size() / 4; i += 9) {
             const revchain::HeldCordShape& shape = branch.shapes[i];
             const auto there =

@@ -82,6 +82,18 @@ TEST_CASE("two verdicts meet at an edge, not at an undecided window shorter than
     CHECK(edges >= 5);
 }
 
+TEST_CASE("a link that passes the vertical leaves no undecided window", "[finite]") {
+    const Chain<double> chain({revchain::plummet(90.0, 2.0), revchain::plummet(90.0, 2.0)});
+    const revchain::Rig rig(chain, {.support = revchain::carried_round(0.5)});
+    int passing = 0;
+    for (const Branch& branch : revchain::branches(rig, {.max_angular_speed = 8.0}).branches) {
+        for (const auto& window : revchain::stability_windows(rig, branch)) CHECK(window.verdict != Verdict::undecided);
+        for (std::size_t i = 1; i < branch.size(); ++i)
+            passing += branch.shape(i - 1).inclination[1] * branch.shape(i).inclination[1] < 0;
+    }
+    CHECK(passing > 0);
+}
+
 TEST_CASE("windows of nothing; errors", "[finite]") {
     const auto chain = Chain<double>::uniform_plummets(2, 2, 1);
     const Branch branch = revchain::branch(chain, {.mode = 1, .min_conical_height = 0.5});

@@ -127,10 +127,12 @@ def test_pictures():
     pytest.importorskip("matplotlib")
     diagram = rc.branches(plummets(3), max_angular_speed=5.0, gravity=1.0)
     ax = diagram.plot()
-    named = ["1 half wave", "2 half waves", "3 half waves", "isolated: starts\nat the dotted line", "fold"]
+    named = ["1 half wave", "2 half waves", "3 half waves", "minimum (stable)", "spectrally stable", "unstable"]
+    named += ["fold", "pitchfork", "change of stability"]
     assert [text.get_text() for text in ax.get_legend().get_texts()] == named
-    (above,) = ax.child_axes  # speeds of births stand above the frame: no label hides a loop
-    assert [text.get_text() for text in above.get_xticklabels()] == ["3.904"] and len(ax.texts) == 0
+    (above,) = ax.child_axes  # speeds of folds and pitchforks stand above the frame: no label hides a loop
+    said = [f"pitchfork {speed:#.4g}" for speed in rc.modes(plummets(3), gravity=1.0).angular_speed]
+    assert [text.get_text() for text in above.get_xticklabels()] == [*said, "fold 3.904"] and len(ax.texts) == 0
     for thing in (diagram, diagram[0]):
         quantities = ("lowest_inclination", "tip_radius", "top_tension", "moment_of_inertia", "effective_energy")
         labels = [thing.plot(quantity=quantity).get_ylabel() for quantity in quantities]
@@ -152,8 +154,8 @@ def test_pictures():
 def test_a_picture_goes_into_one_that_is_labelled():
     ax = pytest.importorskip("matplotlib.figure").Figure().add_subplot()
     ax.plot([1.0, 2.0], [0.0, 80.0], label="measured")
-    assert rc.branches(plummets(2), min_conical_height=0.1).plot(ax) is ax
-    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["1 half wave", "2 half waves", "measured"]
+    assert rc.branches(plummets(2), min_conical_height=0.1).plot(ax, stability=False) is ax
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["1 half wave", "2 half waves", "measured", "pitchfork"]
 
 
 THREE = rc.Chain(weight=1.0, length=[1.0, 1.0, 1.0])

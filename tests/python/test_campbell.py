@@ -66,6 +66,21 @@ def test_tables_files_pictures(tmp_path):
         found.plot(speed="s")
 
 
+def test_an_order_listed_twice_counts_once():
+    speeds = np.linspace(0.2, 1.6, 15)
+    once, twice = (rc.campbell(CAROUSEL, speeds, orders=orders) for orders in ([2, 1], [2, 1, 1, 2]))
+    assert twice == once and twice.orders == (2, 1) and len(once.crossings) > 1
+    assert len({(one.order, one.motion, one.angular_speed) for one in twice.crossings}) == len(twice.crossings)
+    scene = rc.Scene.from_dict({"links": [{"mass": 1, "length": 4}], "support": {"radius": 4}})
+    assert scene.campbell(angular_speed=[0.5, 1.0], orders=[1, 1]).orders == (1,)
+
+
+def test_a_fluid_that_turns():
+    floats = rc.Rig(rc.Chain(mass=[1.0, 2.0], length=1.0), displaced=rc.Displaced(mass=[0.1, 0.0]), fluid="turning")
+    with pytest.raises(ValueError, match="revchain.campbell: no small motion .* fluid that turns; use steady_shapes"):
+        rc.campbell(floats, [6.0, 8.0])
+
+
 @pytest.mark.parametrize(
     ("given", "words"),
     [

@@ -2,6 +2,7 @@
 """revchain.Chain: what it keeps, what it refuses."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -192,6 +193,13 @@ def test_clamped_pairs():
     assert np.all(got <= free[:3] * (1 + 4 * 2.0**-52)) and np.all(got >= free[1:] * (1 - 4 * 2.0**-52))
     rods = rc.Chain.uniform_rods(3, length=3.0, weight=3.0).clamped(0).clamped(0)
     assert rc.modes(rods).conical_height == pytest.approx([2.0], rel=1e-15)
+
+
+@pytest.mark.parametrize("mass", [1e200, 1e300])
+def test_a_body_beyond_all_measure_is_named(mass):
+    rods = rc.Chain.uniform_rods(3, length=1.0, mass=1.0)
+    with pytest.raises(ValueError, match=rf"with_body: mass is too far from that of the link above pin 0, got {re.escape(f'{mass:g}')}"):
+        rods.with_body(mass=mass)
 
 
 @pytest.mark.parametrize(

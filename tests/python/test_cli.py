@@ -68,7 +68,9 @@ find = ["modes"]
 [vary."links[0].mass"]
 values = [1, 2]
 """
-OF_THE_FIXTURE = {"watch.toml": WATCH, "swinging.toml": SWINGING, "study.toml": STUDY}
+ARM = "[support]\nradius = 2\n[[links]]\nmass = 1\nlength = 1\nair_drag = {coefficient = 1, area = 1}\n"
+RIGGED = "[[links]]\nmass = 1\nlength = 1\ndrag = 2\n"
+OF_THE_FIXTURE = {"watch.toml": WATCH, "swinging.toml": SWINGING, "study.toml": STUDY, "arm.toml": ARM, "rigged.toml": RIGGED}
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 
 
@@ -171,7 +173,63 @@ def test_what_cannot_be_answered_does_not_stop_the_rest(run):
     assert run("run", "a.toml")[0] == ExitCode.SCENE_INVALID
     code, out, err = run("run", "b.toml")
     assert code == ExitCode.WRONG_USAGE and "carried round" in out
-    assert "b.toml: the support is carried round: it does not let the rig swing" in err and files_in(Path("out/b")) == ["response" + k for k in (".csv", ".json", ".png", ".txt")]
+    assert "b.toml: line 5, column 1: support.radius: the support is carried round: it does not let the rig swing" in err and files_in(Path("out/b")) == ["response" + k for k in (".csv", ".json", ".png", ".txt")]
+
+
+def test_a_scene_alone_means_run(run):
+    asked = run("run", "watch.toml", "--out", "one", "--units", "rad")
+    assert run("watch.toml", "--out", "one", "--units", "rad") == asked and asked[0] == 0 and files_in(Path("one"))
+    Path("modes").write_text(WATCH)  # the name of a command means that command
+    ends_in_one_sentence(run("modes"), ExitCode.WRONG_USAGE, "missing argument 'SCENE'")
+    Path("a scene").write_text(WATCH)  # a file of any name
+    assert run("a scene", "-q") == (0, "", "")
+    Path("UP.TOML").write_text(WATCH)
+    Path("a.json").write_text('{"links": [{"mass": 1, "length": 1}]}')
+    assert run("UP.TOML", "-q")[0] == run("a.json", "-q")[0] == run("./watch.toml", "-q")[0] == 0
+    ends_in_one_sentence(run("missing.toml"), ExitCode.SCENE_INVALID, "missing.toml: cannot be read: No such file or directory")
+    ends_in_one_sentence(run("study.toml"), ExitCode.SCENE_INVALID, "is of a study, not of a scene: revchain sweep study.toml")
+    ends_in_one_sentence(run("watch.toml", "--count", 3), ExitCode.WRONG_USAGE, "no such option: --count")
+    assert run("watch.toml", "--count", 3)[2].endswith("; see revchain run --help\n")
+    ends_in_one_sentence(run("x"), ExitCode.WRONG_USAGE, "no such command 'x'; see revchain --help")
+    ends_in_one_sentence(run("modse"), ExitCode.WRONG_USAGE, "no such command 'modse'. Did you mean 'modes'?; see revchain --help")
+
+
+def test_completion_knows_the_options_of_run_after_a_scene(python):
+    for words, there in (("revchain watch.toml --", "--out"), ("revchain mod", "modes"), ("revchain swing watch.toml --", "--offset")):
+        asked = {"_REVCHAIN_COMPLETE": "complete_bash", "COMP_WORDS": words, "COMP_CWORD": str(words.count(" "))}
+        assert there in python("-m", "revchain", env={**os.environ, **asked}).stdout.split()
+
+
+ONE = "[[links]]\nmass = 1\nlength = 1\n"
+FEWER = {  # scenes with a number of modes that is larger than there are, and what is said
+    "a chain": (ONE, ["--count", 5], "5 modes are asked for: there is only 1", 1),
+    "some of a chain": (WATCH, ["--count", 9, "--first", 118], "9 modes are asked for: there are only 3 from number 118 on", 3),
+    "a rig": (ONE + "[support]\nstiffness = 10\n", ["--count", 5], "5 modes are asked for: there is only 1", 1),
+    "both directions": (ONE + "flywheel = {mass = 1, radius_of_gyration = 0.1, spin = 9}\n", ["--count", 2], "there is only 1", 2),
+    "a dashpot": (ONE + "[support]\nstiffness = 10\nmass = 1\ndamping = 1\n", ["--count", 5], "there are only 2", 2),
+    "held": (ONE + "repeat = 3\n[held]\ntension = 90\n", ["--count", 5], "5 modes are asked for: there are only 2", 2),
+}
+
+
+@pytest.mark.parametrize(("text", "options", "remark", "rows"), FEWER.values(), ids=FEWER.keys())
+def test_more_modes_than_there_are(run, text, options, remark, rows):
+    """The command and the scene answer with all there are; the table has a remark. Python keeps its error."""
+    Path("a.toml").write_text(text)
+    code, out, err = run("modes", "a.toml", *options)
+    assert (code, err) == (0, "") and remark in out
+    assert len(json.loads(run("modes", "a.toml", *options, "--json", "-")[1])["modes"]) == rows
+    if "--first" not in options:
+        Path("a.toml").write_text(f"{text}[ask.modes]\ncount = {options[1]}\n")
+        assert run("validate", "a.toml")[0] == 0
+        code, out, err = run("run", "a.toml")
+        assert (code, err) == (0, "") and remark in out and remark in Path("out/a/modes.txt").read_text()
+        assert len(rc.load_scene("a.toml").modes()) == rows
+    assert "are asked for" not in run("modes", "a.toml", "--count", "1")[1] + run("modes", "a.toml", "--count", "all")[1]
+
+
+def test_more_modes_than_there_are_in_python_are_refused():
+    with pytest.raises(ValueError, match="count must not exceed the 1 modes of this chain, got 5"):
+        rc.modes(rc.Chain(mass=1.0, length=1.0), 5)
 
 
 def test_options_go_before_the_scene(run):
@@ -267,44 +325,77 @@ def test_command_lines_that_cannot_be_read(run, command):
 
 
 REFUSED = {  # command lines that end in one sentence without an answer
-    "modes watch.toml --count 121": "--count: must be at most 120, got 121",
     "modes watch.toml --count 0": "--count: must be at least 1, got 0",
     "modes watch.toml --count many": '--count: must be a whole number or all, got "many"',
-    "modes watch.toml --first 119 --count 3": "--count: must be at most 2 from number 119 on, got 3",
     "modes watch.toml --first 121": "--first: must be at most 120, got 121",
-    "modes watch.toml --count 3 --angular-speed '1 to 2'": "--angular-speed: does not go with count",
-    "modes watch.toml --conical-height '2 to 1'": "--conical-height: its low end must lie below its high end, got [2",
-    "modes watch.toml --conical-height '-1 to 1'": "--conical-height[0]: must not be negative, got -1",
-    "modes watch.toml --angular-speed 'nan to 1'": "--angular-speed[0]: must not be negative, got nan",
-    "modes watch.toml --angular-speed '30 kg'": "--angular-speed[1]: must be an angular speed such as",
+    "modes watch.toml --count 3 --angular-speed '1 to 2'": "--angular-speed: does not go with --count",
+    "modes watch.toml --conical-height '2 to 1'": "--conical-height: its low end must lie below its high end, got 2 to 1",
+    "modes watch.toml --conical-height '-1 to 1'": "--conical-height: LOW must not be negative, got -1",
+    "modes watch.toml --angular-speed 'nan to 1'": "--angular-speed: LOW must not be negative, got nan",
+    "modes watch.toml --angular-speed '30 kg'": "--angular-speed: HIGH must be an angular speed such as",
     "modes watch.toml --rtol much": "--rtol: must be a number, or a number and its unit",
     "modes watch.toml --rtol -1": "--rtol: must not be negative, got -1",
     "modes watch.toml --rtol nan": "--rtol: must not be negative, got nan",
     "modes watch.toml --method qr": "bisection, condensed, aberth, interpolated, dense, recurrence",
     "modes watch.toml --precision single": '--precision: must be one of double, extended, double-double, got "single"',
-    "modes watch.toml --precision extended --method dense": '--precision: method = "dense" goes with "double" only',
+    "modes watch.toml --precision extended --method dense": '--precision: --method "dense" goes with "double" only',
     "modes watch.toml --plot a.jpg": "--plot: a.jpg must end in .png, .svg, .pdf",
     "modes watch.toml --json - --csv -": "cannot share stdout",
-    "modes watch.toml --json a.txt --csv a.txt": "two outputs have the same name",
-    "modes watch.toml --json watch.toml": "watch.toml: the scene itself would be overwritten",
-    "shapes swinging.toml --angular-speed 1 --conical-height 1": "give angular_speed or conical_height, not both",
+    "modes watch.toml --json a.txt --csv a.txt": "--json and --csv: two outputs have the same name",
+    "modes watch.toml --json watch.toml": "--json: watch.toml: the scene itself would be overwritten",
+    "shapes swinging.toml --angular-speed 1 --conical-height 1": "give --angular-speed or --conical-height, not both",
     "shapes swinging.toml --angular-speed '3 kg'": '--angular-speed: must be an angular speed such as "30 rpm", got "3 kg"',
     "shapes swinging.toml --angular-speed '2,5 rpm'": 'the decimal mark is a point: write "2.5 rpm"',
     "shapes swinging.toml --direction 3": "--direction: must be one of 1, -1, got 3",
     "shapes swinging.toml --max-half-waves 2": "--max-half-waves: is for a chain held at both ends, got 2",
     "shapes swinging.toml --gravity -1": "--gravity: must be positive, got -1",
-    "shapes swinging.toml --units turns": "--units: must be deg or rad, got turns",
+    "shapes swinging.toml --units turns": "--units: must be deg or rad, the unit of angles, got turns",
     "response swinging.toml --angular-speed 1,5": '--angular-speed: a list has semicolons, such as "1; 2", and the decimal',
-    "response swinging.toml --angular-speed '-1 to 2'": "--angular-speed.from: must be positive, got -1",
+    "response swinging.toml --angular-speed '-1 to 2'": "--angular-speed: FROM must be positive, got -1",
     "response swinging.toml --angular-speed '1 to 2 rpm in 2.5'": 'such as "30 rpm", got "2 rpm in 2.5"',
-    "response swinging.toml --angular-speed '1 to 2 in 0'": "--angular-speed.steps: must be at least 1, got 0",
+    "response swinging.toml --angular-speed '1 to 2 in 0'": "--angular-speed: N must be at least 1, got 0",
     "explain watch.toml --rtol -1": "--rtol: must not be negative, got -1",
-    "swing watch.toml": "ask.swing.offset: give offset, velocity or support_time: nothing would move",
+    "swing watch.toml": "watch.toml: give --offset, --velocity or --support-time: nothing would move",
+    "swing swinging.toml --offset '1; x'": '--offset: item 2 must be a number, or a number and its unit such as "39.1396 inch", got "x"',
+    "swing swinging.toml --velocity '1; 2; 3'": "--velocity: must have a number for each of the 2 pins that move, free end first, got 3",
+    "swing swinging.toml --time 'nan'": "--time: must be finite, got nan",
+    "swing swinging.toml --time '0 to 5 kg'": '--time: TO must be a time such as "2 min", got "5 kg"',
+    "swing swinging.toml --count 0": "--count: must be at least 1, got 0",
+    "swing swinging.toml --count 3": "--count: must be from 0 to 2, got 3",
+    "swing swinging.toml --support-velocity '1; 0'": "--support-velocity: needs --support-time beside it, the time of each",
+    "swing swinging.toml --support-time '0; 1'": "--support-time: needs one of --support-velocity, --support-acceleration, --support-offset and --support-force",
+    "swing swinging.toml --support-time '0; 1' --support-velocity 1": "--support-velocity: must have as many values as --support-time, two or more, got 1 beside 2",
+    "swing swinging.toml --support-time '1; 0' --support-velocity '1; 1'": "--support-time: must ascend, got 0",
+    "swing swinging.toml --support-time '0; 1' --support-velocity '1; 1' --support-force '1; 1'": "--support-force: does not go with --support-velocity",
+    "swing swinging.toml --support-time '0; 1' --support-force '1; 1'": "--support-force: needs a support that yields",
+    "response swinging.toml --force 3 --angular-speed 1": "--force: needs a support that yields",
+    "response swinging.toml --force 3 --acceleration 3 --angular-speed 1": "--force: does not go with --acceleration",
+    "response watch.toml": "watch.toml: give --angular-speed or --conical-height: at which speed",
+    "branches watch.toml": "watch.toml: give --max-angular-speed or --min-conical-height: at which speed",
+    "campbell watch.toml": '--angular-speed: is missing: write --angular-speed "1 rpm to 20 rpm in 39"',
+    "campbell watch.toml --angular-speed '2 to 1 in 3'": "--angular-speed: must be two or more ascending speeds, got 2 to 1",
+    "campbell watch.toml --angular-speed '1 to 2 in 3' --orders '1; 0'": "--orders: item 2 must be at least 1, got 0",
+    "campbell watch.toml --angular-speed '1 to 2 in 3'": "watch.toml: at none of the speeds, 1 to 2 rad/s, is there a shape",
+    "modes watch.toml --angular-speed '1 to 2 to 3'": '--angular-speed: must be "LOW to HIGH", got 1 to 2 to 3',
+    "shapes watch.toml --angular-speed '1 rpm to 3 rpm'": '--angular-speed: must be a number, or a number and its unit such as "30 rpm", got "1 rpm',
+    "response swinging.toml --angular-speed 3 --support-radius '1 to inf'": '--support-radius: must be one number, not a range, got "1 to inf"',
+    "shapes watch.toml --angular-speed 1e200": "--angular-speed: must be from 1e-100 to 1e+100 in size, in SI units, got 1e+200",
+    "drag arm.toml": '--angular-speed: is missing: write --angular-speed "12 rpm"',
+    "drag arm.toml --angular-speed 0": "--angular-speed: must not be 0",
+    "drag arm.toml --angular-speed 3 --half-waves 4": "--half-waves: there is no shape without drag with this number of half waves",
+    "shapes rigged.toml --angular-speed 3": "rigged.toml: line 4, column 1: links[0].drag: steady shapes cannot be found for a rig with linear drag",
     "run study.toml": "is of a study, not of a scene: revchain sweep study.toml",
     "sweep swinging.toml": "is of a scene, not of a study: revchain run swinging.toml",
     "sweep study.toml --chunk 0": "'--chunk'",
-    "sweep study.toml --out a.txt": "a.txt must end in .csv, .parquet, .xlsx or .nc",
-    "sweep study.toml --out study.toml": "study.toml: the study itself would be overwritten",
+    "sweep study.toml --out a.txt": "--out: a.txt must end in .csv, .parquet, .xlsx or .nc",
+    "sweep study.toml --out study.toml": "--out: study.toml: the study itself would be overwritten",
+    "campbell watch.toml --angular-speed '1 to 15 rpm in 29'": '--angular-speed: only the last number has a unit: write "1 rpm to 15 rpm", got 1 to 15 rpm',
+    "modes watch.toml --angular-speed '20 to 6e1 rpm'": '--angular-speed: only the last number has a unit: write "20 rpm to 6e1 rpm", got 20 to 6e1 rpm',
+    "swing swinging.toml --offset '1; 2 cm'": '--offset: only the last number has a unit: write "1 cm; 2 cm", got 1; 2 cm',
+    "shapes swinging.toml --rpm 60": 'no such option: --rpm; write --angular-speed "60 rpm", or "1 Hz"; see revchain shapes --help',
+    "branches swinging.toml --speed 6": '--speed; write --max-angular-speed "60 rpm", or "1 Hz"; see revchain branches --help',
+    "modes watch.toml --tip-mass 3": "--tip-mass; tip_mass is a key of the scene: change it there; see revchain modes --help",
+    "swing watch.toml --period 3": "no such option: --period; see revchain swing --help",
     "frobnicate": "no such command 'frobnicate'; see revchain --help",
     "--colour": "no such option: --colour; see revchain --help",
     "animate watch.toml -o film.avi": "--out: film.avi must end in .gif, .mp4, .html, .glb",
@@ -312,11 +403,11 @@ REFUSED = {  # command lines that end in one sentence without an answer
     "animate watch.toml -o a.html --ask tune": "--ask: must be one of modes, shapes, response, swing, branches, got tune",
     "animate watch.toml -o a.html --ask shapes": "watch.toml: ask.shapes: give angular_speed or conical_height",
     "animate watch.toml -o a.html --figures '1, 2'": '--figures: must be whole numbers with semicolons between them, such',
-    "animate watch.toml -o a.html --figures 9": "watch.toml: modes: mode must be from 1 to 4, got 9",
+    "animate watch.toml -o a.html --figures 9": "watch.toml: --figures: mode must be from 1 to 4, got 9",
     "animate watch.toml -o a.html --duration 0": "--duration: must be positive and finite, got 0",
     "animate watch.toml -o a.html --time-scale -1": "--time-scale: must be positive and finite, got -1",
     "animate watch.toml -o a.glb --frames-per-second 9": "--frames-per-second: a .glb file has no frames; leave it out",
-    "animate watch.toml -o a.gif --duration 1e6": "modes: duration times frames_per_second must be at most 20000",
+    "animate watch.toml -o a.gif --duration 1e6": "watch.toml: --duration times --frames-per-second must be at most 20000",
     "animate watch.toml -o a.html --gravity -1": "--gravity: must be positive",
     "animate watch.toml -o missing/a.html": "missing/a.html: cannot be written: No such file or directory",
     "animate missing.toml -o a.html": "missing.toml: cannot be read",
@@ -415,16 +506,25 @@ def test_validate(run):
 
 def test_new(run):
     code, out, _ = run("new")
-    assert code == 0 and out == "wrote scene.toml; now: revchain run scene.toml\n"
+    assert code == 0 and out == "wrote scene.toml; now: revchain scene.toml\n"
     text = Path("scene.toml").read_text()
-    assert text.count("#") > 15
-    assert run("validate", "scene.toml")[0] == run("run", "scene.toml")[0] == 0
+    assert text.count("#") > 15 and "revchain THIS_FILE" in text.splitlines()[0]
+    assert run("validate", "scene.toml")[0] == run("scene.toml")[0] == 0 and "bell" in Path("out/scene/modes.txt").read_text()
     Path("scene.toml").write_text("mine")
     code, _, err = run("new")
     assert code == ExitCode.OUTPUT_FAILED and "--force" in err and Path("scene.toml").read_text() == "mine"
     assert run("new", "scene.toml", "--force")[0] == 0 and Path("scene.toml").read_text() == text
     assert run("new", "-")[1] == text
     assert run("new", "missing/scene.toml")[0] == ExitCode.OUTPUT_FAILED
+    ends_in_one_sentence(run("new", "a.json"), ExitCode.WRONG_USAGE, "a.json: a scene with comments is TOML: write revchain new a.toml")
+    assert run("new", "crane") == (0, "wrote crane; now: revchain run crane\n", "") and run("crane", "-q") == (0, "", "")
+
+
+def test_a_new_study_asks_nothing_and_is_computed_at_once(run):
+    Path("study.toml").unlink()
+    assert run("new", "--study") == (0, "wrote study.toml; now: revchain sweep study.toml\n", "")
+    code, out, err = run("sweep", "study.toml")
+    assert (code, err) == (0, "") and "wrote study.csv" in out and len(Path("study.csv").read_text().splitlines()) == 64
 
 
 def test_what_the_new_scene_says_in_comments_is_right(run):
@@ -445,10 +545,32 @@ def test_what_the_new_scene_says_of_rigs_is_right(run):
     text, mark, _ = Path("a.toml").read_text().partition("# ---- ... or")
     Path("b.toml").write_text(re.sub(r"^# (?=\w+ = |\[support\])", "", text.replace('# order = "support first"', ""), flags=re.MULTILINE))
     rig = rc.load_scene("b.toml").system()
-    assert mark and (rig.support, rig.fluid) == (rc.Support(stiffness=200.0, mass=0.3, radius=0.1), "turning")
+    assert mark and (rig.support, rig.fluid) == (rc.Support(stiffness=200.0, mass=0.3, damping=3.0, radius=0.1), "turning")
+    assert rig.pins.stiffness[-1] == 0.5 and rig.pins.damping[-1] == 0.02 and rig.drag[-1] == 0.1
     assert rig.inverted.tolist() == [False] * 4 + [True] and rig.has_momentum and rig.displaced.mass[-1] == 0.4
     assert rig.chain.mass[-1] == pytest.approx(2.1, rel=1e-15)  # with the weight at its pin
+    assert "fluid: dashpots and a fluid that turns are not solved together" in run("modes", "b.toml")[2]
+    Path("b.toml").write_text(re.sub(r"(?m)^(pin|drag|damping) = .*\n", "", Path("b.toml").read_text()))
     assert run("modes", "b.toml")[0] == 0
+
+
+def test_what_the_new_scene_says_of_cords_governors_and_other_questions_is_right(run):
+    run("new", "a.toml")
+    text = Path("a.toml").read_text()
+    body, _, rest = text.partition("# ---- other questions")
+    cord = re.search(r"(## \[cord\]\n(?:## .*\n)+)", text)[1].replace("## ", "")
+    Path("cord.toml").write_text(cord)
+    assert rc.load_scene("cord.toml").system() == rc.Cord(0.36, mass=0.03, masses={0.1: 0.02})
+    governor = re.sub(r"^# ?", "", rest[rest.index("# [governor]") :], flags=re.MULTILINE)
+    Path("governor.toml").write_text(governor)
+    assert run("governor.toml", "-q") == (0, "", "")
+    asks = rest[: rest.index("## [ask.drag]")].replace("# orders", "orders")
+    asks = re.sub(r"^# (?=\w+ = |\[ask)", "", asks.partition("\n")[2], flags=re.MULTILINE)
+    Path("asks.toml").write_text(body + asks)
+    read = rc.load_scene("asks.toml")
+    assert read.asks == ("modes", "shapes", "response", "swing", "branches", "campbell") and len(read.system().length) == 5
+    for question in read.asks:
+        assert run(question, "asks.toml", "-q") == (0, "", ""), question
 
 
 def test_schema(run):

@@ -254,11 +254,26 @@ def test_what_a_cord_keeps():
         ({"density": lambda s: 1.0, "breaks": [3.0]}, r"breaks must lie between .*got 3"),
         ({"tip_mass": 1.0, "tip_radius_of_gyration": 0.1}, r"tip_radius_of_gyration needs a tip_centroid above 0"),
         ({"tip_centroid": 0.1}, r"tip_centroid needs a tip_mass above 0"),
+        ({"tip_mass": 1.0, "tip_centroid": 1e50}, r"tip_centroid must be at most 100000 lengths of the cord .*got 1e\+50"),
+        ({"tip_mass": 1.0, "tip_centroid": 0.1, "tip_radius_of_gyration": 3e5}, r"tip_radius_of_gyration must be at most"),
     ],
 )
 def test_wrong_cords(given, message):
     with pytest.raises(ValueError, match=message):
         rc.Cord(2.0, **({"mass": 1.0} | given))
+
+
+def test_masses_at_one_place_are_added():
+    added = rc.Cord(2.0, mass=1.0, masses={0.5: 1.0, "50 cm": "2 kg", 1.5: 4.0})
+    assert added.masses == {0.5: 3.0, 1.5: 4.0} and added == rc.Cord(2.0, mass=1.0, masses={0.5: 3.0, 1.5: 4.0})
+    at = [{"arc_length": 0.5, "mass": 1}, {"arc_length": "50 cm", "mass": 2}, {"arc_length": 1.5, "mass": 4}]
+    assert rc.Scene.from_dict({"cord": {"length": 2, "mass": 1, "masses": at}}).system() == added
+
+
+@pytest.mark.parametrize("given", [{"masses": {1.0: 1e200}}, {"masses": {1.0: 1e60}, "tip_mass": 1e60}])
+def test_masses_beyond_all_measure_are_named(given):
+    with pytest.raises(ValueError, match="modes: masses, tip or bob are too far from the cord's own mass and length to follow mode"):
+        rc.modes(rc.Cord(2.0, mass=1.0, **given)).nodes
 
 
 @pytest.mark.parametrize(

@@ -449,6 +449,8 @@ def test_refusals():
         rc.drag_shape(carried, 1.0, angular_speed=3.0)
     with pytest.raises(ValueError, match="diameter of the drag must be a number or an array with one for each of the 2"):
         rc.drag_shape(carried, rc.Drag(1.0, diameter=[0.1, 0.2, 0.3]), angular_speed=3.0)
+    with pytest.raises(ValueError, match=r"angular_speed must be at most 1e\+100 in size, got -1e\+200"):
+        rc.drag_shape(carried, air, angular_speed=-1e200)
     with pytest.raises(ValueError, match="angular speed must be positive"):
         rc.drag_shape(carried, air, angular_speed=0.0)
     sprung = rc.Rig(chain, support=rc.Support(radius=1.0), pins=rc.Pin(stiffness=1.0))

@@ -281,7 +281,7 @@ def check_fit_measured_speeds(printed, _):
     table = printed.partition("correlation of load and rope 0.075")[0]
     assert table and f"```text\n{table}```" in page
     assert "(figures/fit_measured_speeds.svg)" in page and (ROOT / "docs/figures/fit_measured_speeds.svg").is_file()
-    assert "cannot tell links[0].mass and links[1].mass apart" in printed
+    assert "cannot tell links[load].mass and links[hook block].mass apart" in printed
 
 
 def check_draw_studies(printed, folder):

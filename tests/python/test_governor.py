@@ -9,6 +9,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 from exact import near
+from tier import by_tier
 
 import revchain as rc
 
@@ -120,6 +121,37 @@ def test_without_a_sleeve_it_is_a_conical_pendulum():
 def test_what_is_refused(given, words):
     with pytest.raises(ValueError, match=words):
         rc.SleeveGovernor(**({"ball_mass": 1.0, "arm": 1.0} | given))
+
+
+def test_the_effort_in_the_axis_is_a_limit():
+    """At inclination 0, where moment of the balls and way of the sleeve vanish, as beside it."""
+    rng = np.random.default_rng(7)
+    for _ in range(by_tier(50, 1000)):
+        ball, arm, sleeve, joint, longer, change = rng.uniform(0.3, 3.0, 6)
+        joint = arm * min(joint / 3, 1.0)
+        governor = rc.SleeveGovernor(
+            ball_mass=ball, arm=arm, balls=int(rng.integers(1, 5)), lower_arm=joint * (1.05 + longer), joint=joint,
+            sleeve_mass=sleeve, spring_stiffness=rng.uniform(0, 9), spring_force=rng.uniform(0, 9),
+        )  # fmt: skip
+        there, beside = governor.effort(0.0, change), governor.effort(1e-4, change)
+        np.testing.assert_allclose(there, beside, rtol=1e-6)
+        assert 0 < there.effort < math.inf and np.isnan(there.power) == np.isnan(there.lift)
+    equal = rc.SleeveGovernor(ball_mass=2.3, arm=0.33, lower_arm=0.33, sleeve_mass=9.5, gravity=9.81)
+    assert equal.effort(0.0, 0.01).effort == near((2.3 + 9.5) * 9.81 * (0.01 + 0.01**2 / 2), rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({}, "effort: needs a sleeve: give the governor lower_arm or sleeve_arm"),
+        ({"lower_arm": 1.0, "pivot_offset": 0.05, "sleeve_offset": 0.05}, "at a speed above 0, got 0 with speed 0"),
+        ({"sleeve_arm": 1.0, "sleeve_mass": 1.0}, "at a speed above 0, got 0 with speed inf"),
+        ({"lower_arm": 1.0, "sleeve_offset": 0.05, "sleeve_mass": 1.0}, "at a speed above 0, got 0 with speed nan"),
+    ],
+)
+def test_efforts_that_are_refused(given, words):
+    with pytest.raises(ValueError, match=words):
+        rc.SleeveGovernor(**({"ball_mass": 1.0, "arm": 1.0} | given)).effort(0.0)
 
 
 def test_calls_that_are_refused():

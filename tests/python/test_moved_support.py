@@ -309,11 +309,11 @@ def test_scenes_move_their_supports():
     ("ask", "words"),
     [
         ({"swing": {}}, "give offset, velocity or support_time: nothing would move"),
-        ({"swing": {"support_time": [0, 1]}}, "give one of velocity, acceleration, offset, force, got none"),
-        ({"swing": {"support_velocity": [0, 1]}}, "must be lists of one length"),
+        ({"swing": {"support_time": [0, 1]}}, "support_time: needs one of support_velocity, support_acceleration, support_offset and support_force beside it"),
+        ({"swing": {"support_velocity": [0, 1]}}, "support_velocity: needs support_time beside it"),
         ({"swing": {"support_time": [0, 1, 1], "support_velocity": [0, 1, 2]}}, "a support cannot jump"),
         ({"response": {"angular_speed": 1.0, "force": 1.0, "acceleration": 2.0}}, "does not go with acceleration"),
-        ({"response": {"angular_speed": 1.0, "force": 1.0}}, "force needs a support that yields"),
+        ({"response": {"angular_speed": 1.0, "force": 1.0}}, "force: needs a support that yields"),
     ],
 )
 def test_scenes_say_what_is_wrong(ask, words):

@@ -250,8 +250,11 @@ def test_links_from_the_support_down():
     """And their names."""
     listed = [{**ONE, "name": "load", "tip_mass": 1}, {"mass": 2.0, "length": 0.5, "repeat": 2}, {"mass": 3.0, "length": "1 ft"}]
     down, up = links(*listed[::-1], order="support first"), links(*listed)
-    assert down.system() == up.system() and down.system().mass.tolist() == [2, 2, 2, 3]
-    assert down.system().names == ("load", "links[1]", "links[2]", "links[3]")
+    assert down.system().mass.tolist() == up.system().mass.tolist() == [2, 2, 2, 3] and down.system().order == "support first"
+    assert down.system().names == ("load", "links[1]", "links[1]", "links[0]")  # those without a name: as in the file
+    assert up.system().names == ("load", "links[1]", "links[1]", "links[2]")
+    named = [{**link, "name": name} for link, name in zip(listed, "abc", strict=True)]
+    assert links(*named[::-1], order="support first").system() == links(*named).system()
     assert "load: 2 kg on 1 m" in down.system().describe()
     clamped = [{**ONE, "clamped": True}, {**ONE, "standing": True}]
     assert links(*clamped[::-1], order="support first").system() == links(*clamped).system()

@@ -95,7 +95,7 @@ def test_both_ends_held():
     [
         ({"links": LINKS}, "steady_shapes", {}, "ask.shapes: give angular_speed or conical_height"),
         ({"links": LINKS}, "response", {}, "ask.response: give angular_speed or conical_height"),
-        ({"links": LINKS}, "swing", {}, "ask.swing.offset: give offset, velocity or support_time"),
+        ({"links": LINKS}, "swing", {}, "ask.swing: give offset, velocity or support_time"),
         ({"links": LINKS}, "branches", {}, "ask.branches: give max_angular_speed or min_conical_height"),
         (BLADE, "modes", {}, "held at a span is bent"),
         (BLADE, "response", {"angular_speed": 3.0}, "is not available for a"),
@@ -166,7 +166,7 @@ def test_the_commands(run, tmp_path):
     rows = list(csv.DictReader(io.StringIO((tmp_path / "response.csv").read_text())))
     assert code == 0 and "and 10 more" in out and len(rows) == 30
     assert [float(row["free_end_offset"]) for row in rows] == driven.offset[:, 0].tolist()
-    for heights, lines in (("0.1 to 20 cm in 4", 5), ("0.1 to 20 cm", 201), ("0.1; 20 cm; 3", 4), ("20 cm", 2)):
+    for heights, lines in (("10 cm to 20 cm in 4", 5), ("10 cm to 0.2", 201), ("0.1; 20 cm; 3", 4), ("20 cm", 2)):
         assert run("response", path, "--conical-height", heights, "--csv", "-")[1].count("\n") == lines
 
     path = write(tmp_path, SWING)

@@ -737,6 +737,16 @@ name = "a/b"
 """
 
 
+def test_more_modes_than_there_are():
+    """Points with fewer modes than are asked for have all of theirs; there are columns for the point with the most."""
+    data = {"links": [{"mass": 1, "length": 1}], "ask": {"modes": {"count": 5}}}
+    found = rc.sweep(study(data, {"links[0].repeat": {"values": [1, 2, 4]}}))
+    speed = found["angular_speed"].to_numpy()
+    assert speed.shape == (3, 4) and (found["status"] == 1).all()
+    assert np.isfinite(speed).sum(axis=1).tolist() == [1, 2, 4]
+    assert speed[1, :2].tolist() == rc.modes(rc.Chain(mass=[1.0, 1.0], length=1.0)).angular_speed.tolist()
+
+
 def test_all_at_once():
     """Syntax, the scene, what varies and what is asked, each with its line; quoted keys, too."""
     Path("a.toml").write_text(WRONG)
@@ -766,7 +776,7 @@ def test_all_at_once():
         "a.toml: line 1, column 1: scene: b.toml: line 3, column 1: the decimal mark is a point: write length = 2.5, not 2,5",
         "a.toml: line 1, column 1: scene: b.toml: line 4, column 1: links[0].mas: unknown key; did you mean mass?",
         "a.toml: line 2, column 1: sampels: unknown key; did you mean samples?",
-        "a.toml: line 4, column 1: vary.gravity.values: must be a list of numbers, got 3",
+        "a.toml: line 4, column 1: vary.gravity.values: must be a list of numbers, got 3: write [3]",
     ]
 
 

@@ -205,7 +205,7 @@ def baseline(name, function):
 
 
 # What is right, however much work it is: a step for each of a million places, a blow for each ratio of the masses.
-WORK = {("Branch.stability_windows", "samples"), ("BufferImpact", "rear_mass")}
+WORK = {("Branch.stability_windows", "samples"), ("Branches.stability_windows", "samples"), ("BufferImpact", "rear_mass")}
 
 
 def complaint(function, arguments):

@@ -11,7 +11,7 @@ import numpy as np
 import revchain as rc
 
 MEASURED = {1: ("10.97 s", "0.03 s"), 2: ("1.608 s", "0.008 s"), 3: ("0.2421 s", "0.0008 s")}
-LOAD, ROPE = "links[0].mass", "links[1].length_in_proportion"
+LOAD, ROPE = "links[load].mass", "links[hook block].length_in_proportion"
 
 believed = rc.Chain(mass=[2500, 400], length=[6, 24], names=["load", "hook block"])
 crane = rc.Rig(believed, support=rc.Support(stiffness="200 kN/m", mass=300))
@@ -49,7 +49,7 @@ print(f"correlation of load and rope {found.correlation[0, 1]:.3f}")
 
 hung = {1: MEASURED[1], 2: MEASURED[2]}  # the two modes in which the trolley hardly moves
 print("\nboth masses, with a fixed trolley:")
-print(rc.fit(believed, hung, vary=[LOAD, "links[1].mass"]))
+print(rc.fit(believed, hung, vary=[LOAD, "links[hook block].mass"]))
 
 # %%
 # Does the fit explain the measurements, and are the uncertainties right? On the left, the fitted

@@ -52,8 +52,9 @@ shapes.show(height=520)
 
 # %%
 # Every shape belongs to a branch: the shape as a function of the speed. One branch starts at rest.
-# The others are isolated: they appear in pairs at a least speed, and the carousel does not reach
-# them from rest.
+# The others are isolated: they appear in pairs at a least speed, a fold, and the carousel does not
+# reach them from rest. Lines are solid where the shape is a minimum of the energy, dash-dotted where
+# only gyroscopic forces keep it, dashed where it is unstable.
 
 branches = rc.branches(chairs, max_angular_speed=12.0)
 figure = plt.figure(figsize=(8, 6.4), layout="constrained")

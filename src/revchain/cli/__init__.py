@@ -24,7 +24,7 @@ MEANING = {
     ExitCode.OK: "success",
     ExitCode.TOLERANCE_NOT_MET: "the answer does not meet the requested tolerance",
     ExitCode.WRONG_USAGE: "wrong usage, or a package is missing",
-    ExitCode.SCENE_INVALID: "a scene is invalid",
+    ExitCode.SCENE_INVALID: "a scene or a model is invalid",
     ExitCode.OUTPUT_FAILED: "an output cannot be written",
     ExitCode.INTERRUPTED: "interrupted",
 }

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import re
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Annotated
@@ -12,6 +13,7 @@ import typer
 
 from ..motion.write import METHODS, require_for
 from ..results.files import written_aside
+from ..scenes.system import option
 from ..scenes.tables import QUESTIONS
 from .ask import Gravity, Quiet, SceneFile, answer_of, read_scene
 from . import ExitCode
@@ -58,12 +60,12 @@ def animate(
         raise Stop(f"--out: {out} must end in {', '.join(METHODS)}", ExitCode.WRONG_USAGE)
     require_for(ending)
     if scene.resolve() == out.resolve():
-        raise Stop(f"{scene}: the scene itself would be overwritten", ExitCode.WRONG_USAGE)
+        raise Stop(f"--out: {scene}: the scene itself would be overwritten", ExitCode.WRONG_USAGE)
     numbers = {"time_scale": time_scale, "duration": duration, "frames_per_second": frames_per_second}
     given = {name: value for name, value in numbers.items() if value is not None}
     for name, value in given.items():
         if not 0 < value < math.inf:
-            raise Stop(f"--{name.replace('_', '-')}: must be positive and finite, got {value:g}", ExitCode.WRONG_USAGE)
+            raise Stop(f"{option(name)}: must be positive and finite, got {value:g}", ExitCode.WRONG_USAGE)
     if frames_per_second is not None and ending in (".html", ".glb"):
         raise Stop(f"--frames-per-second: a {ending} file has no frames; leave it out", ExitCode.WRONG_USAGE)
     which = None if figures is None else _numbers(figures)
@@ -72,13 +74,17 @@ def animate(
     if shown not in MOVING:
         raise Stop(f"--ask: must be one of {', '.join(MOVING)}, got {shown}", ExitCode.WRONG_USAGE)
     with written_aside(out) as [aside], ExitStack() as stack:
-        found = answer_of(scene, read, shown, {}, quiet)
+        found = answer_of(scene, read, shown, None, quiet)
         try:
             getattr(found, METHODS[ending])(aside, figures=which, progress=counted(stack, "frames", quiet), **given)
         except OSError as error:  # names the file of the user, not the temporary one
             raise OSError(error.errno, error.strerror or str(error), str(out)) from None
         except ValueError as error:
-            raise Stop(f"{scene}: {shown}: {str(error).partition(': ')[2]}", ExitCode.WRONG_USAGE) from None
+            words = str(error).partition(": ")[2]
+            for name in numbers:
+                words = re.sub(rf"\b{name}\b", option(name), words)
+            about = "" if "--" in words else "--figures: " if which else f"{shown}: "
+            raise Stop(f"{scene}: {about}{words}", ExitCode.WRONG_USAGE) from None
     if not quiet:
         print(f"wrote {out}")
     Report(read, scene.stem, shown, found, "deg").check(scene)

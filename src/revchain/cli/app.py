@@ -15,9 +15,11 @@ import typer
 
 from ..results.files import written_aside
 from ..scenes.error import SceneError
+from ..scenes.parse import is_json
 from ..scenes.scene import json_schema, load_scene
+from ..scenes.tables import SYSTEM_TABLES, fields_of
 from ..studies.study import study_schema
-from . import ExitCode, animate, ask, sweep  # noqa: F401  their commands come first
+from . import ExitCode, animate, ask, sweep, importing  # noqa: F401  their commands come first
 from .frame import STDOUT, Stop, app, epilog, guarded
 
 
@@ -41,12 +43,25 @@ def run(arguments: list[str] | None = None) -> int:
         elif sentence:
             command = "revchain" if context is None else context.command_path
             sentence = sentence[0].lower() + sentence[1:].rstrip(".")
-            print(f"revchain: {sentence}; see {command} --help", file=sys.stderr)
+            print(f"revchain: {sentence}{_instead(error)}; see {command} --help", file=sys.stderr)
         return ExitCode.WRONG_USAGE
     except SystemExit as end:
         return end.code if isinstance(end.code, int) else int(end.code is not None)
     except (KeyboardInterrupt, typer.Abort):
         return ExitCode.INTERRUPTED
+
+
+def _instead(error: Any) -> str:
+    """What to write instead of an option that does not exist: a speed, or a number of the scene."""
+    wrong = getattr(error, "option_name", "").lstrip("-").replace("-", "_")
+    there = [] if error.ctx is None else [name for each in error.ctx.command.params for name in each.opts]
+    if wrong in ("rpm", "hz", "speed", "frequency", "period"):
+        speed = next((name for name in there if name.endswith("angular-speed")), "")
+        return f'; write {speed} "60 rpm", or "1 Hz"' if speed else ""
+    return f"; {wrong} is a key of the scene: change it there" if wrong in _OF_A_SYSTEM else ""
+
+
+_OF_A_SYSTEM = {field.encode_name for kind in SYSTEM_TABLES for field in fields_of(kind)}
 
 
 @app.command(epilog=epilog("validate"))
@@ -78,18 +93,22 @@ def new(
     study: Annotated[bool, typer.Option("--study", help="Write a study instead of a scene.")] = False,
 ) -> None:
     """Write an example scene with comments, or an example study."""
-    kind, folder, command = ("study", "studies", "sweep") if study else ("scene", "scenes", "run")
+    kind, folder = ("study", "studies") if study else ("scene", "scenes")
     text = files("revchain").joinpath(folder, f"new_{kind}.toml").read_text(encoding="utf-8")
     if file is None:
         file = Path(f"{kind}.toml")
     if str(file) == STDOUT:
         sys.stdout.write(text)
         return
+    if is_json(str(file)):
+        right = f"a {kind} with comments is TOML: write revchain new {file.with_suffix('.toml')}"
+        raise Stop(f"{file}: {right}", ExitCode.WRONG_USAGE)
     if file.exists() and not force:
         raise Stop(f"{file}: exists already; --force overwrites it", ExitCode.OUTPUT_FAILED)
     with written_aside(file) as [aside]:
         aside.write_text(text, encoding="utf-8")
-    print(f"wrote {file}; now: revchain {command} {file}")
+    run_it = "sweep " if study else "" if file.suffix.lower() == ".toml" else "run "
+    print(f"wrote {file}; now: revchain {run_it}{file}")
 
 
 @app.command(epilog=epilog("schema"))

@@ -7,6 +7,7 @@ import inspect
 import re
 import sys
 from contextlib import AbstractContextManager, nullcontext, suppress
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any, Literal, get_args, get_origin
 
@@ -18,13 +19,13 @@ from ..closed_forms.governor import SleeveGovernor
 from ..results.excel import pages_of, write_workbook
 from ..results.files import naming, written_aside
 from ..scenes.report import check_path, page_of
-from ..scenes.tables import QUESTIONS, AskExplain, Pair, Spread, Table, fields_of
-from ..scenes.system import Numbers, System
-from ..scenes.error import SceneError
-from ..scenes.parse import is_json, text_of
-from ..scenes.positions import positions_in
+from ..scenes.tables import QUESTIONS, TABLES, AskExplain, Pair, Spread, Table, fields_of
+from ..scenes.error import Problem, SceneError
+from ..scenes.parse import written
 from ..scenes.scene import EXCLUSIVE, Scene, load_scene, read
+from ..scenes.system import Numbers, System, option
 from ..systems.extras import require
+from ..systems.units import PATTERN
 from . import ExitCode
 from .frame import STDOUT, Stop, app, checked_workbook, epilog, guarded, outputs_of
 from .progress import watched
@@ -83,7 +84,7 @@ def run(
         for nth, question in enumerate(checked._questions):
             outputs = [(folder / f"{question}{kind}", kind) for kind in kinds]
             try:
-                answer = _answer(scene, checked, question, {}, outputs, units, quiet)
+                answer = _answer(scene, checked, question, None, outputs, units, quiet)
                 answers[question] = answer.found
                 if not quiet:
                     _show(answer, outputs, heading=nth == 0)
@@ -164,7 +165,7 @@ def _option(field: structs.FieldInfo, of_modes: bool) -> Any:
     if of_modes and field.name in EXCLUSIVE:
         help_text += " The count, first and windows of the scene do not apply."
     help_text = help_text.replace("[", "\\[")
-    name = f"--{field.encode_name.replace('_', '-')}"
+    name = option(field.encode_name)
     default: Any = field.default if isinstance(field.default, (bool, int, str)) else None
     if bool in get_args(field.type):
         shown = name[2:] if default else f"no-{name[2:]}"
@@ -190,19 +191,31 @@ def _meant(field: structs.FieldInfo, given: Any) -> Any:
         return given
     form = _form(field)
     if form in (Spread, list) and "," in given:
-        option = field.encode_name.replace("_", "-")
         sentence = f'a list has semicolons, such as "1; 2", and the decimal mark is a point, got {given}'
-        raise Stop(f"--{option}: {sentence}", ExitCode.WRONG_USAGE)
+        raise Stop(f"{option(field.encode_name)}: {sentence}", ExitCode.WRONG_USAGE)
     if form is Pair:
         if " to " not in given:
             return [0, _number(given)]
-        return [_number(part) for part in re.split(r"\s+to\s+", given)]
+        return _of_one_unit(field, [_number(part) for part in re.split(r"\s+to\s+", given)], " to ")
     if form is Spread and (found := re.fullmatch(r"(.*\S)\s+to\s+(.*?\S)(?:\s+in\s+(\d{1,9}))?", given)):
         steps = {"steps": int(found[3])} if found[3] else {}
-        return {"from": _number(found[1]), "to": _number(found[2]), **steps}
+        first, last = _of_one_unit(field, [_number(found[1]), _number(found[2])], " to ")
+        return {"from": first, "to": last, **steps}
     if form in (Spread, list) and (";" in given or form is list):
-        return [_number(part) for part in given.split(";")]
+        return _of_one_unit(field, [_number(part) for part in given.split(";")], "; ")
     return _number(given)
+
+
+def _of_one_unit(field: structs.FieldInfo, parts: list[Any], between: str) -> list[Any]:
+    """The parts of a value; Stop if the last alone has a unit, which may be meant for the others too."""
+    *others, last = parts
+    bare = any(others) and all(isinstance(part, float | int) for part in others)
+    if bare and isinstance(last, str) and re.match(PATTERN, last):
+        unit = re.sub(r"^\s*[-+.\d]+([eE][-+]?\d+)?\s*", "", last)
+        right = between.join([*(f"{part} {unit}" for part in others), last])
+        sentence = f'only the last number has a unit: write "{right}", got {between.join(map(str, parts))}'
+        raise Stop(f"{option(field.encode_name)}: {sentence}", ExitCode.WRONG_USAGE)
+    return parts
 
 
 def _number(text: str) -> Any:
@@ -216,7 +229,7 @@ def _number(text: str) -> Any:
 def read_scene(path: Path, gravity: str | None, units: str) -> Scene:
     """The scene, with another gravity if one is given."""
     if units not in ("deg", "rad"):
-        raise Stop(f"--units: must be deg or rad, got {units}", ExitCode.WRONG_USAGE)
+        raise Stop(f"--units: must be deg or rad, the unit of angles, got {units}", ExitCode.WRONG_USAGE)
     if gravity is None:
         return load_scene(path)
     numbers = Numbers("scene")
@@ -230,29 +243,33 @@ def _answer(
     path: Path,
     scene: Scene,
     question: str,
-    changed: dict[str, Any],
+    changed: dict[str, Any] | None,
     outputs: list[tuple[Path, str]],
     units: str,
     quiet: bool,
 ) -> Report:
-    """Answer one question and write the files. The outputs are opened first."""
+    """Answer one question and write the files. The outputs are opened first. `changed` are options, None without any."""
     with written_aside(*[file for file, _ in outputs]) as asides:
         found = answer_of(path, scene, question, changed, quiet)
-        report = Report(scene, path.stem, question, found, units)
+        report = Report(scene, path.stem, question, found, units, None if changed is None else changed.get("count"))
         report.write(outputs, asides)
     return report
 
 
-def answer_of(path: Path, scene: Scene, question: str, changed: dict[str, Any], quiet: bool) -> Any:
-    """The result, with a bar while modes are found. Stop where the system has no answer."""
+def answer_of(path: Path, scene: Scene, question: str, changed: dict[str, Any] | None, quiet: bool) -> Any:
+    """The result, with a bar while modes are found. Stop where the system has no answer.
+
+    `changed` are the options given to the command of the question, which messages name; None for other commands.
+    """
     if sentence := without_answer(question, scene.system(), path):
         raise Stop(f"{path}: {sentence}", ExitCode.WRONG_USAGE)
+    ask = partial(scene._answer, question, changed or {}, options=changed is not None)
     try:
         if question == "modes":
-            return watched(lambda progress: scene._answer(question, changed, progress), Console(stderr=True), quiet)
-        return scene._answer(question, changed)
+            return watched(lambda progress: ask(progress), Console(stderr=True), quiet)
+        return ask()
     except SceneError as error:
-        lines = [f"{path}: {_line(each.key, each.reason, question, changed, path)}" for each in error.problems]
+        lines = [f"{path}: {_line(each, question, changed)}" for each in error.problems]
         raise Stop("\nrevchain: ".join(lines), ExitCode.WRONG_USAGE) from None
 
 
@@ -262,15 +279,29 @@ def _show(report: Report, outputs: list[tuple[Path, str]], heading: bool = True)
     print(f"wrote {', '.join([str(file) for file, _ in outputs])}\n" if outputs else "", end="")
 
 
-def _line(key: str, reason: str, question: str, changed: dict[str, Any], path: Path) -> str:
+def _line(problem: Problem, question: str, changed: dict[str, Any] | None) -> str:
     """The sentence for a problem of an option or of the scene."""
-    option = re.split(r"[.\[]", name := key.removeprefix(f"ask.{question}."))[0]
-    if option in changed:
-        return f"--{name.replace('_', '-')}: {reason}"
-    if key.startswith("links["):
-        line, column = positions_in(text_of(path), is_json(str(path)))(key)
-        key = f"line {line}, column {column}: {key}"
-    return f"{key}: {reason}" if key else reason
+    line, column, key, reason = problem
+    if line:
+        return f"line {line}, column {column}: {key}: {reason}"
+    name, dot, part = key.partition(f"ask.{question}.")[2].partition(".")
+    name, bracket, index = name.partition("[")
+    if changed is None or not name:
+        return f"{key}: {reason}" if key and (changed is None or key != f"ask.{question}") else reason
+    value = changed.get(name)
+    if bracket:
+        is_pair = _form(next(each for each in fields_of(TABLES[question]) if each.name == name)) is Pair
+        place = int(index.rstrip("]"))
+        reason = f"{('LOW', 'HIGH')[place] if is_pair else f'item {place + 1}'} {reason}"
+    elif dot:
+        reason = f"{_PARTS.get(part, part)} {reason}"
+    elif isinstance(value, list):
+        typed = (" to " if "pair" in reason else "; ").join(map(str, value))
+        reason = reason.replace(written(value), typed).replace("a pair [low, high]", '"LOW to HIGH"')
+    return f"{option(name)}: {reason}"
+
+
+_PARTS = {"from": "FROM", "to": "TO", "steps": "N"}  # of a range, as in the help
 
 
 _SHAPES = (

@@ -11,7 +11,9 @@ from pathlib import Path
 from typing import Annotated, Any, NoReturn, ParamSpec
 
 import typer
+from typer.core import TyperGroup
 
+from ..plots.style import save_picture as save_picture
 from ..scenes.error import SceneError
 from ..systems.extras import require
 from . import MEANING, ExitCode
@@ -55,6 +57,10 @@ USE: dict[str, tuple[str, str]] = {
         "the results (--out, or STUDY.csv in the current folder) and the picture given by --plot; RESULTS.partial "
         "while it computes, or if it is interrupted",
     ),
+    "import": (
+        'revchain import examples/models/acrobat.xml --ignore "friction range" --out acrobat.toml',
+        "the scene given by --out, or FILE.toml in the current folder; existing files only with --force",
+    ),
     "validate": ("revchain validate examples/scenes/watch_chain.toml", "none"),
     "new": ("revchain new crane.toml", "FILE, or scene.toml (study.toml with --study); existing files only with --force"),
     "schema": ("revchain schema", "none"),
@@ -62,6 +68,7 @@ USE: dict[str, tuple[str, str]] = {
 NEVER = {  # exit codes that a command does not have
     "validate": {ExitCode.TOLERANCE_NOT_MET},
     "new": {ExitCode.TOLERANCE_NOT_MET, ExitCode.SCENE_INVALID},
+    "import": {ExitCode.TOLERANCE_NOT_MET},
     "schema": {ExitCode.TOLERANCE_NOT_MET, ExitCode.SCENE_INVALID},
 }
 
@@ -78,12 +85,27 @@ def epilog(command: str) -> str:
     return f"Example: [b]{example}[/b]\n\nFiles written: {files}.\n\nExit codes: {codes}."
 
 
+class Commands(TyperGroup):
+    """The commands; a scene file in the place of one means `run`."""
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        word = args[0]
+        is_scene = word not in self.commands and (word.lower().endswith((".toml", ".json")) or Path(word).is_file())
+        return super().resolve_command(ctx, ["run", *args] if is_scene else args)
+
+
+_WHAT = (
+    "Whirl speeds and shapes of hanging chains, with error bounds. [b]revchain new[/b] writes a scene to begin with; "
+    "[b]revchain SCENE[/b] means [b]revchain run SCENE[/b]."
+)
 app = typer.Typer(
+    cls=Commands,
     add_completion=True,
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     rich_markup_mode="rich",
-    help="Whirl speeds and shapes of hanging chains, with error bounds.",
+    subcommand_metavar="COMMAND [ARGS]... | SCENE",
+    help=_WHAT,
     epilog=EXIT_CODES,
 )
 
@@ -140,7 +162,7 @@ def show_version(wanted: bool) -> None:
         raise typer.Exit
 
 
-@app.callback()
+@app.callback(help=_WHAT)
 def common(
     version: Annotated[
         bool, typer.Option("--version", callback=show_version, is_eager=True, help="Print the version and exit.")
@@ -152,12 +174,6 @@ def common(
     """Whirl speeds and shapes of hanging chains, with error bounds."""
     if cmake_prefix:  # alone it is answered by __main__, which does not need typer
         raise typer.BadParameter("--cmake-prefix must be the only argument")
-
-
-def save_picture(axes: Any, title: str, path: Path) -> None:
-    """Write a picture with its title."""
-    axes.set_title(title.replace("$", r"\$"), wrap=True)  # no mathematics
-    axes.figure.savefig(path, dpi=200)
 
 
 def checked_picture(plot: Path) -> None:
@@ -187,9 +203,11 @@ def outputs_of(
     if xlsx is not None:
         checked_workbook(xlsx)
         outputs.append((xlsx, ".xlsx"))
-    files = [path.resolve() for path, _ in outputs]
-    if len(set(files)) < len(files):
-        raise Stop("two outputs have the same name", ExitCode.WRONG_USAGE)
-    if scene.resolve() in files:
-        raise Stop(f"{scene}: the scene itself would be overwritten", ExitCode.WRONG_USAGE)
+    seen = {scene.resolve(): ""}
+    for path, kind in outputs:
+        name = f"--{kind[1:]}" if kind in (".json", ".csv", ".xlsx") else "--plot"
+        if (before := seen.setdefault(path.resolve(), name)) == "":
+            raise Stop(f"{name}: {scene}: the scene itself would be overwritten", ExitCode.WRONG_USAGE)
+        if before != name:
+            raise Stop(f"{before} and {name}: two outputs have the same name, {path}", ExitCode.WRONG_USAGE)
     return outputs

@@ -13,6 +13,7 @@ from textwrap import fill
 from typing import Any
 
 import msgspec
+from msgspec import UnsetType
 from rich import box
 from rich.console import Console
 from rich.table import Table
@@ -20,6 +21,7 @@ from rich.text import Text
 
 from ..closed_forms.governor import SleeveGovernor
 from ..results.excel import pages_of, write_workbook
+from ..results.modes import Modes
 from ..results.sheet import Sheet, as_csv, as_dict, cells
 from ..scenes.report import drawn, further_sheets, in_radians, shortfall
 from ..scenes.system import in_file
@@ -34,12 +36,17 @@ HEADING = 10  # width of a line of a heading in columns
 class Report:
     """The answer to one question of a scene: as text, JSON, CSV and picture."""
 
-    def __init__(self, scene: Scene, stem: str, question: str, found: Any, units: str) -> None:
+    def __init__(
+        self, scene: Scene, stem: str, question: str, found: Any, units: str, count: int | str | None = None
+    ) -> None:
         self.scene, self.question = scene, question
         self.title = scene.title or stem
         self.system: str = getattr(found, "description", "") or scene.system().describe()  # modes know it
         self.found = found
         self.units = units
+        if count is None and isinstance(found, Modes) and not isinstance(scene.ask.modes, UnsetType):
+            count = scene.ask.modes.count  # type: ignore[assignment]
+        self.asked = count if isinstance(count, int) and isinstance(found, Modes) else 0
         self.sheet: Sheet = found._sheet(brief=True)
 
     @cached_property
@@ -108,9 +115,15 @@ class Report:
             for part in (words, grid):
                 if part is not None:
                     console.print(part)
+        numbers: Any = self.sheet.columns[0].values if self.asked and self.sheet.good else []
+        if len(numbers) and self.asked > (there := numbers[-1] - numbers[0] + 1):
+            after = f" from number {numbers[0]} on" if numbers[0] > 1 else ""
+            only = f"there {'is' if there == 1 else 'are'} only {there}{after}"
+            console.print(Text(f"{self.asked} modes are asked for: {only}", style="yellow"))
         for note in self.sheet.notes:
-            if self.scene.order == "support first":
-                note = in_file(note, self.scene._bodies())
+            if "links[" in note:
+                bodies = self.scene._bodies()
+                note = in_file(note, bodies[::-1] if self.scene.order == "support first" else bodies)
             console.print(Text(note, style="dim"))
 
 

@@ -62,11 +62,11 @@ def sweep(
             raise Stop(f"--plot: {reason}", ExitCode.WRONG_USAGE)
     out = Path(f"{study.stem}.csv") if out is None else out
     if out.resolve() == study.resolve():
-        raise Stop(f"{study}: the study itself would be overwritten", ExitCode.WRONG_USAGE)
+        raise Stop(f"--out: {study}: the study itself would be overwritten", ExitCode.WRONG_USAGE)
     try:
         check_output(out, given._plan(str(study)).points)
     except ValueError as error:
-        raise Stop(str(error), ExitCode.WRONG_USAGE) from None
+        raise Stop(f"--out: {error}", ExitCode.WRONG_USAGE) from None
     began = time.perf_counter()
     with ExitStack() as stack:
         if plot is not None:  # opened before the computation, so that a wrong path is an error at once

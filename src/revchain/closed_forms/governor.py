@@ -279,6 +279,7 @@ class SleeveGovernor(Solved, row="point"):
 
         inclination: Inclination of the arms, rad
         change: Fraction by which the speed rises
+        raises: If the governor has no sleeve, or no equilibrium at the inclination at a speed above 0.
 
         >>> porter = rc.SleeveGovernor(ball_mass=2.3, arm=0.33, lower_arm=0.33, sleeve_mass=9.5122, gravity=9.81)
         >>> answer = porter.effort("27 deg")
@@ -286,9 +287,21 @@ class SleeveGovernor(Solved, row="point"):
         (1.165, 0.01159, 0.01349)
         """
         caller = "revchain.SleeveGovernor.effort"
-        return GovernorEffort(
-            *self._found().effort(real(caller, "inclination", inclination), one_positive(caller, "change", change))
-        )
+        angle, rise = real(caller, "inclination", inclination), one_positive(caller, "change", change)
+        given: dict[str, Any] = self._given
+        if not (given["lower_arm"] or given["sleeve_arm"]):
+            raise ValueError(f"{caller}: needs a sleeve: give the governor lower_arm or sleeve_arm")
+        speed = float(self.at(angle).angular_speed)
+        if not 0 < speed < math.inf:
+            must = "inclination must have an equilibrium at a speed above 0"
+            raise ValueError(f"{caller}: {must}, got {angle:g} with speed {speed:g}")
+        effort, lift, power = self._found().effort(angle, rise)
+        if math.isnan(effort):  # in the axis both the moment of the balls and the way of the sleeve vanish to first order
+            joint = given["joint"] or given["arm"]
+            effort = speed**2 * (rise + rise**2 / 2) * given["balls"] * given["ball_mass"] * given["arm"] ** 2
+            effort /= joint + joint**2 / given["lower_arm"]
+            power = effort * lift
+        return GovernorEffort(effort, lift, power)
 
     def _sheet(self, brief: bool = False) -> Sheet:
         low, high = (self._given[name] for name in _STOPS)

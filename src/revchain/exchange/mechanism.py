@@ -10,6 +10,7 @@ the support are at rest. Springs and dashpots at a pin act on both of its hinges
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
 from decimal import Context, Decimal
 from typing import Any
@@ -29,6 +30,7 @@ MOST = 490
 PARTS = ("world", "turntable", "carriage", "free_end")
 _LEAST_OF_WHEEL = 4e-15  # link and wheel have half of it each, and MuJoCo takes no less than 1e-15
 _DIGITS = Context(prec=40)
+_NOT_IN_XML = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _BENT = "only a Chain or a Rig is a serial chain of links; cut a cord into links first: cord.chain(100)"
 
 
@@ -211,9 +213,12 @@ def radius_of_gyration(moment: float, mass: float, added: float = 0.0) -> float:
 
 
 def _names(chain: Chain) -> tuple[str, ...]:
-    """Names of the links: all different, and none that of a part of the support. Later links of a name get a number."""
+    """Names of the links: all different, and none that of a part of the support. Later links of a name get a number.
+
+    A character that XML cannot have becomes "_".
+    """
     names: list[str] = []
-    given = chain.names or [f"link_{k}" for k in range(chain.size)]
+    given = [_NOT_IN_XML.sub("_", name) for name in chain.names or [f"link_{k}" for k in range(chain.size)]]
     taken = {*PARTS, ""}
     for k, name in enumerate(given):
         if name in taken:

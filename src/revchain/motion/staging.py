@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ..plots.modes import MOST_SHAPES, Straight, floating, rods_of, rows_of
-from ..plots.shapes import words_of
+from ..plots.branches import words_of
 from ..plots.forms import form_of
 from ..plots.style import CAPTION_UNITS, MOST_PINS_AS_DOTS, thinned, with_speeds
 from ..results.base import Listed
@@ -333,7 +333,7 @@ def _film(
     few = not system._is_cord and base.size <= MOST_PINS_AS_DOTS
     names: tuple[str, ...] = ()
     if not system._is_cord:
-        names = tuple(f"links[{k}]" for k in range(base.size))
+        names = tuple(f"links[{k}]" for k in system._link_numbers)
         if base.names is not None:
             names = tuple(f"{number} {name}" for number, name in zip(names, base.names, strict=True))
     gravity = 0.0 if system._is_held and system.weightless else float(result.gravity)

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of steady shapes and of their branches."""
+"""Pictures of steady shapes."""
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -13,31 +12,13 @@ from ..closed_forms.table import described
 from ..systems.numbers import word
 from .modes import ARM, beside_at_rest, draw_spring
 from .style import AXIS, MOST_PINS_AS_DOTS, SpeedUnit, axes_or_new, half_waves_style, house, keep_room
-from .style import legend_outside, new_figure, plain, thinned
+from .style import legend_outside, new_figure, thinned
 
 if TYPE_CHECKING:
-    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
 
-    from ..results.branches import Branch, Branches
     from ..results.drag import DragShape
     from ..results.shapes import SteadyShape, SteadyShapes
-
-QUANTITIES = {
-    "lowest_inclination": "inclination of the lowest link (degrees)",
-    "tip_radius": "tip radius (m)",
-    "largest_offset": "largest distance from axis (m)",
-    "top_tension": "tension at the upper end (N)",
-    "moment_of_inertia": "moment of inertia (kg m^2)",
-    "effective_energy": "effective energy (J)",
-}
-BY_WEIGHT = {
-    "top_tension": "tension at the upper end (unit of the weights)",
-    "moment_of_inertia": "moment of inertia (weight x length^2)",
-    "effective_energy": "effective energy (weight x length)",
-}
-FEW_BIRTHS = 3  # speeds that are written side by side
-CLOSEST = 0.03  # of the width, between births whose speeds are written out
 
 
 @described(bound=True)
@@ -175,107 +156,3 @@ def _fitting_height(shapes: Sequence[SteadyShape], wide: float) -> float:
     """Return the height in inches of a figure for curves of these proportions, some 5 inches wide at most."""
     tall = max((np.ptp([0.0, *shape.height]) for shape in shapes), default=1.0)
     return float(np.clip(1.2 + 5.0 * tall / wide, 3.4, 6.0)) if wide else 6.0
-
-
-def words_of(quantity: str, by_mass: bool) -> str:
-    """Return the label of an axis, with the unit that the quantity has for systems given by mass or by weight."""
-    return QUANTITIES[quantity] if by_mass else BY_WEIGHT.get(quantity, QUANTITIES[quantity])
-
-
-@described(bound=True)
-def plot_branch(branch: Branch, ax: Axes | None = None, *, quantity: str | None = None, speed: str = "rad/s") -> Axes:
-    """Draw a quantity of the branch against the speed; folds are marked.
-
-    quantity: Quantity to draw: ``lowest_inclination`` (in degrees; of hanging systems unless given),
-        ``tip_radius``, ``largest_offset`` (of held systems unless given), ``top_tension``, ``moment_of_inertia`` or
-        ``effective_energy``.
-    raises: If `quantity` is another word, or one that the system does not have.
-
-    >>> ax = rc.branch(rc.Chain.uniform_plummets(2, length=2.0), 1, min_conical_height=0.1).plot()
-    >>> ax.get_ylabel()
-    'inclination of the lowest link (degrees)'
-    """
-    return _draw_branches([branch], ax, quantity, speed, "revchain.Branch.plot")
-
-
-@described(bound=True)
-def plot_branches(
-    branches: Branches, ax: Axes | None = None, *, quantity: str | None = None, speed: str = "rad/s"
-) -> Axes:
-    """Draw the bifurcation diagram: a quantity of each branch against the speed.
-
-    quantity: Quantity to draw, as in `Branch.plot`.
-    returns: The drawing. Colours show half waves, hollow marks folds. Isolated branches are dashed, and the speeds at
-        which they start are above the frame. The title says whether the diagram is `complete`.
-    raises: If `quantity` is another word, or one that the system does not have.
-
-    >>> ax = rc.branches(rc.Chain.uniform_plummets(3, length=3.0), min_conical_height=0.04).plot()
-    >>> ax.get_xlabel()
-    'speed (rad/s)'
-    """
-    ax = _draw_branches(branches, ax, quantity, speed, "revchain.Branches.plot")
-    if not branches:
-        ax.set_title("no shape at or above this conical height")
-    elif hasattr(branches, "complete"):
-        ax.set_title("all branches: proved complete" if branches.complete else "branches found: not proved complete")
-    return ax
-
-
-def _draw_branches(branches: Sequence[Branch], ax: Axes | None, quantity: str | None, speed: str, caller: str) -> Axes:
-    """Draw a curve for each branch, and mark births and folds."""
-    unit = SpeedUnit(caller, speed)
-    available = [name for name in QUANTITIES if not len(branches) or hasattr(branches[0], name)]
-    if quantity is None:
-        quantity = "largest_offset" if len(branches) and "tip_radius" not in available else "lowest_inclination"
-    word(caller, "quantity", quantity, available)
-    ax = beside_at_rest(branches[0].system if len(branches) else None, ax, 7.2, 5.0)
-    named: set[int] = set()
-    curves: dict[Artist, int] = {}
-    births: list[tuple[float, str]] = []
-    for branch in branches:
-        waves = int(branch.half_waves[0])
-        x, y = unit.of(branch.angular_speed), getattr(branch, quantity)
-        if quantity.endswith("inclination"):
-            y = np.degrees(y)
-        colour, label = half_waves_style(waves, named)
-        style = "-" if branch.mode is not None else "--"
-        curves[ax.plot(x, y, style, color=colour, linewidth=1.6, label=label)[0]] = waves
-        if getattr(branch, "birth", "fold") != "fold":
-            ax.plot(x[0], y[0], "o", color=colour, markersize=5.0)
-        folds = branch.folds  # hollow marks, which hide no loop however small
-        ax.plot(x[folds], y[folds], "D", color=colour, markersize=5.0, markerfacecolor="none", zorder=3)
-        if branch.mode is None and folds.size:
-            births.append((float(unit.of(branch.angular_speed[folds].min())), colour))
-    _mark_births(ax, births)
-    label = words_of(quantity, all(branch.system.by_mass for branch in branches))
-    names = getattr(branches[0].system._base, "names", None) if len(branches) else None
-    if names is not None and names[0] and quantity == "lowest_inclination":
-        label = plain(textwrap.fill(f"inclination of {names[0]} (degrees)", 40))
-    ax.set(xlabel=unit.label, ylabel=label)
-    ax.grid(color="0.9", linewidth=0.6)
-    ax.set_axisbelow(True)
-    if named:
-        if births:
-            ax.plot([], [], "--", color="0.3", linewidth=1.6, label="isolated: starts\nat the dotted line")
-        if any(len(branch.folds) for branch in branches):
-            ax.plot([], [], "D", color="0.3", markersize=5.0, markerfacecolor="none", label="fold")
-        handles, labels = ax.get_legend_handles_labels()
-        order = sorted(range(len(labels)), key=lambda i: curves.get(handles[i], np.inf))  # those of the caller are last
-        legend_outside(ax, handles=[handles[i] for i in order], labels=[labels[i] for i in order])
-    return ax
-
-
-def _mark_births(ax: Axes, births: list[tuple[float, str]]) -> None:
-    """Draw dotted lines at the speeds where pairs appear; the numbers are above the frame, where they hide no loop."""
-    left, right = ax.get_xlim()
-    last = -np.inf
-    ticks: list[float] = []
-    for at, colour in sorted(births):
-        ax.axvline(at, color=colour, linestyle=":", linewidth=0.8, zorder=1)
-        if at - last >= CLOSEST * (right - left):
-            ticks.append(at)
-            last = at
-    if not ticks:
-        return
-    above = ax.secondary_xaxis("top")
-    above.set_xticks(ticks, [f"{at:.4g}" for at in ticks], rotation=0 if len(ticks) <= FEW_BIRTHS else 90)

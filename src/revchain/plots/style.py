@@ -6,12 +6,14 @@ from __future__ import annotations
 import sys
 import textwrap
 from collections.abc import Collection, Iterable
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..systems.extras import require
 from ..systems.numbers import Floats, Numbers, integer, listed, shown, word
+from ..systems.units import SPEED_UNITS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -39,12 +41,6 @@ STYLE: dict[Any, Any] = {
 AXIS: dict[str, Any] = {"color": "0.6", "linestyle": "-.", "linewidth": 0.9, "zorder": 1}
 """The line of the axis about which a system turns."""
 
-SPEED_UNITS = {  # what is measured in each unit, and the number of the unit for 1 rad/s
-    "rad/s": ("speed", 1.0),
-    "rpm": ("speed", 30 / np.pi),
-    "Hz": ("frequency", 0.5 / np.pi),
-    "s": ("period", 2 * np.pi),
-}
 WIDEST = 8.0  # inches, of a new figure
 LABEL_WIDTH = 20  # letters in a line of a legend
 MINUS = "\N{MINUS SIGN}"
@@ -144,6 +140,12 @@ def legend_outside(ax: Axes, **more: Any) -> None:
 def plain(text: str) -> str:
     """Return `text` for matplotlib, which would read what is between two $ as mathematics."""
     return text.replace("$", r"\$")
+
+
+def save_picture(axes: Any, title: str, path: Path) -> None:
+    """Write a picture with its title."""
+    axes.set_title(plain(title), wrap=True)
+    axes.figure.savefig(path, dpi=200)
 
 
 def thinned(curve: Numbers) -> np.ndarray[tuple[int], np.dtype[np.intp]]:

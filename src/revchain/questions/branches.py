@@ -3,14 +3,17 @@
 
 from __future__ import annotations
 
+from itertools import combinations
 from typing import Any
 
+import numpy as np
+
 from .. import _core
-from ..results.branches import Branch, Branches, branch_made, branches_made
+from ..results.branches import Branch, Branches, branch_made, branches_made, joined
 from ..systems.chain import Chain
 from ..systems.cord import Cord
 from ..systems.held import Held
-from ..systems.numbers import STANDARD_GRAVITY, count, height_of, limit, one_positive
+from ..systems.numbers import STANDARD_GRAVITY, boolean, count, height_of, limit, one_positive, shown
 from ..systems.rig import Rig
 from ..systems.system import System
 from .refuse import no_system
@@ -18,6 +21,8 @@ from .shapes import compiled_system, require_span, rotation
 
 LISTS = 16
 """Number of speeds at which `branches` lists all shapes."""
+MOST_LINKS = 10
+"""Number of links of which `branches` follows all postures, 1024."""
 
 
 def branch(
@@ -114,6 +119,8 @@ def branches(
     gravity: float = STANDARD_GRAVITY,
     direction: int = 1,
     budget: int = 3_000_000,
+    hanging_only: bool = True,
+    stability: bool = False,
 ) -> Branches:
     """Return all branches of steady shapes up to a speed, including isolated ones, and whether any can be missing.
 
@@ -135,6 +142,12 @@ def branches(
         Limit of the work. The list of all shapes may visit this many links at each of 16 speeds (see `steady_shapes`).
         The proof that no branch is missing may use a third of this number. A visit takes 0.1 to 1 microsecond. Not used
         for cords and held systems.
+    hanging_only : bool, optional
+        Chains and rigs: whether to leave out branches with a link above its upper pin (for a rig: with other links
+        inverted than those of the rig). If false, the branches of all ``2**N`` postures are found; N at most 10.
+    stability : bool, optional
+        Whether to compute `Branch.verdict` of every branch now; not for cords. Otherwise tables and pictures compute it
+        when they need it, if that takes less than about a second.
 
     Returns
     -------
@@ -145,12 +158,18 @@ def branches(
         every branch was followed to its end. Those of held systems have no ``complete``; `steady_shapes` can prove a
         list at one speed.
 
+        With ``hanging_only=False`` the branches of the system's own posture come first, then those of each other posture.
+        `Branch.system` is the `Rig` with the links of the posture inverted, and ``mode`` counts its modes. ``complete`` is
+        then false: the proof that no loop is missing between two speeds is for links that hang.
+
     Raises
     ------
     ValueError
         If not exactly one of `max_angular_speed` and `min_conical_height` is given, or a number is out of its range; if
         a link of a rig has no effective tension at one of the speeds; if a `Held` system is under a tension or has no
-        gravity.
+        gravity; with ``hanging_only=False`` for a cord, a held system, or more than 10 links.
+    TypeError
+        If `hanging_only` or `stability` is not a bool.
 
     Notes
     -----
@@ -169,8 +188,15 @@ def branches(
     and only the straight one if it is on the axis. If stiffness times conical height is less than the weight that
     moves, a spring at the support cannot balance it, and nothing is proved; ``remark`` gives these heights.
 
+    A link becomes horizontal only at infinite speed, or at a speed where a flywheel takes its tension, so a branch never
+    leaves its posture. All shapes in any posture are therefore on the branches of the ``2**N`` rigs in which some of the
+    links are inverted, and with ``hanging_only=False`` each of these diagrams is computed. ``consistent`` then refers to
+    the proved lists of every posture. The heights `looked_at` are those at which all postures without a proof were listed.
+
     Cost, measured down to a conical height of 1/200 of the length: three links 4 to 8 ms, five 15 ms, six 30 ms. Eight
-    equal plummets on threads of length a, to 5 sqrt(g/a): 0.1 s; twenty rods, 1 m in all, to 20 rad/s: 0.05 s.
+    equal plummets on threads of length a, to 5 sqrt(g/a): 0.1 s; twenty rods, 1 m in all, to 20 rad/s: 0.05 s. All
+    postures down to 1/50 of the length: three links 0.03 s, four 0.1 s, six (196 branches) 0.7 s. Ten links down to a
+    fifth of the length take some 10 s.
 
     Examples
     --------
@@ -190,12 +216,46 @@ def branches(
     (['rest', 'fold'], True)
     >>> round(float(diagram[1].angular_speed.min()), 4)
     2.2878
+
+    Two links in every posture: one of them stands on its upper pin, or both hang:
+
+    >>> rc.branches(rc.Chain.uniform_plummets(2, length=2.0), max_angular_speed=9.0, hanging_only=False).inverted
+    ('none', 'none', '0', '1')
     """
     caller = "revchain.branches"
     height, g, turns = _checked(caller, system, min_conical_height, max_angular_speed, gravity, direction)
     most = limit(caller, "budget", budget)
-    found: Any = _core.branches(compiled_system(caller, system, g), height, LISTS, most, most // 3, g, turns)
-    return branches_made(found, system, g, turns)
+    postures, judged = [system], boolean(caller, "stability", stability)
+    if not boolean(caller, "hanging_only", hanging_only):
+        postures = _postures(caller, system)
+    diagrams = []
+    for each in postures:
+        found: Any = _core.branches(compiled_system(caller, each, g), height, LISTS, most, most // 3, g, turns)
+        diagrams.append(branches_made(found, each, g, turns, judged))
+    diagram = diagrams[0] if hanging_only else joined(diagrams, system)
+    if judged:
+        for branch in diagram:
+            branch.verdict  # noqa: B018  it is stored when first read
+    return diagram
+
+
+def _postures(caller: str, system: Any) -> list[Any]:
+    """The system in all postures, its own first; a ValueError if it has no links that can stand, or too many."""
+    if not isinstance(system, Chain | Rig):
+        what = "hanging_only=False is for chains and rigs, whose links can be above their upper pins"
+        raise ValueError(f"{caller}: {what}; leave it out, got {shown(system)}")
+    if system.size > MOST_LINKS:
+        raise ValueError(
+            f"{caller}: hanging_only=False follows 2**N postures of at most {MOST_LINKS} links, got {system.size}; at one "
+            "speed use steady_shapes with hanging_only=False"
+        )
+    if isinstance(system, Chain) and system.size == 1:
+        return [system]  # one link alone cannot stand
+    rig = system if isinstance(system, Rig) else Rig(system)
+    fittings = {name: getattr(rig, name) for name in ("support", "flywheels", "displaced", "fluid", "pins", "drag")}
+    own, links = set(np.flatnonzero(rig.inverted)), range(rig.size)
+    others = [set(each) for many in range(rig.size + 1) for each in combinations(links, many) if set(each) != own]
+    return [system, *(Rig(rig.chain, **fittings, inverted=[k in each for k in links]) for each in others)]
 
 
 def _checked(

@@ -41,7 +41,7 @@ def campbell(
     angular_speed : array_like, shape (S,)
         Speeds, rad/s, positive, ascending; at least two.
     orders : iterable of int
-        Multiples of the speed.
+        Multiples of the speed; those listed twice are taken once.
     half_waves : int
         Number of half waves of the shape. If several shapes have this number, the one is taken that is farthest out; with the
         support off the axis it is that which begins at rest.
@@ -61,7 +61,8 @@ def campbell(
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
     ValueError
         If `system` is a `Cord` or a `Held`; if speeds are not positive, finite and ascending; if `orders` has none, or not
-        whole positive numbers; as `steady_shapes` and `SteadyShape.stability`; if there is no such shape at any of the speeds given.
+        whole positive numbers; as `steady_shapes` and `SteadyShape.stability`; if there is no such shape at any of the speeds
+        given, or no small motion of it is known (in a fluid that turns).
 
     Notes
     -----
@@ -83,12 +84,21 @@ def campbell(
     speeds = np.array(positive(_CALLER, "angular_speed", angular_speed))
     if speeds.ndim != 1 or speeds.size < 2 or (np.diff(speeds) <= 0).any():
         raise ValueError(f"{_CALLER}: angular_speed must be a list of at least two ascending speeds, got {shown(angular_speed)}")
-    multiples = tuple(integer(_CALLER, "orders", order) for order in listed(_CALLER, "orders", orders))
+    multiples = tuple(dict.fromkeys(integer(_CALLER, "orders", order) for order in listed(_CALLER, "orders", orders)))
     if not multiples or min(multiples) < 1:
         raise ValueError(f"{_CALLER}: orders must be whole positive numbers, at least one, got {shown(orders)}")
     waves, g = integer(_CALLER, "half_waves", half_waves), one_positive(_CALLER, "gravity", gravity)
     given = (system._under(g), speeds.tolist(), list(multiples), waves, is_driven(_CALLER, frame), g)
-    frequency, stable, crossings = checked(_CALLER, system.by_mass, _core.campbell, *given)
+    try:
+        frequency, stable, crossings = checked(_CALLER, system.by_mass, _core.campbell, *given)
+    except ValueError as error:
+        if "at none of the speeds" not in str(error):
+            raise
+        faster = f"on the axis it exists above critical speed {waves} of `modes`: give faster speeds"
+        raise ValueError(f"{error}; {faster}") from None
+    if not frequency.size:
+        what = "no small motion of the shapes oscillates, or none is known, as in a fluid that turns"
+        raise ValueError(f"{_CALLER}: {what}; use steady_shapes")
     return Campbell._made(
         None,
         system=system,

@@ -15,6 +15,7 @@ from .refuse import refuse_other
 
 _CALLER = "revchain.drag_shape"
 _NOTHING = np.zeros(1)
+_FASTEST = 1e100  # rad/s: the square of the speed, in the drag, stays finite
 _MOST_WAVES = 2**31 - 1  # what the compiled module can hold
 
 
@@ -92,6 +93,8 @@ def drag_shape(
     if not isinstance(drag, Drag):
         raise TypeError(f"{_CALLER}: drag must be a revchain.Drag, got {shown(drag)}")
     speed = real(_CALLER, "angular_speed", floats(_CALLER, "angular_speed", angular_speed))
+    if abs(speed) > _FASTEST:
+        raise ValueError(f"{_CALLER}: angular_speed must be at most {_FASTEST:g} in size, got {speed:g}")
     waves = None if half_waves is None else count(_CALLER, "half_waves", half_waves)
     g = one_positive(_CALLER, "gravity", gravity)
     given = {name: drag._given.get(name, _NOTHING) for name in ("coefficient", "diameter", "area")}

@@ -15,13 +15,13 @@ from ..results.fitted import Fitted
 from ..results.sensitivity import rig_derivatives
 from ..systems.chain import Chain
 from ..systems.cord import Cord
-from ..systems.datum import Datum, datum_at, refuse_overlap
+from ..systems.datum import Datum, datum_at, gravity_datum, refuse_overlap
 from ..systems.extras import require
 from ..systems.held import Held
 from ..systems.numbers import STANDARD_GRAVITY, Floats, Whole, integer, one_positive, real, shown
 from ..systems.rig import Rig
 from ..systems.system import System
-from ..systems.units import has_units, in_si, unpacked
+from ..systems.units import SI, has_units, in_si, unpacked
 from .modes import straight
 from .refuse import no_system
 from .speeds import Speeds, speeds
@@ -32,6 +32,9 @@ _SINGULAR = 1e-8  # of the largest singular value: a smaller one belongs to a co
 _EFFECT = 1e-9  # smallest relative effect on a speed of a relative change of 1 of a datum
 _EXTREME = 1e100  # an uncertainty over its value, or less than 1 / it, whose square would overflow
 _PART = 1e-6  # smallest part of a datum in a combination
+_FIXED = 1e-9  # 1 less the leverage of a measurement that decides a datum alone
+_ROUNDED = 1e-10  # relative residuals that are errors of rounding
+_CHANCE = 0.01  # how often a fit with a correct model says that a measurement disagrees
 
 
 def fit(
@@ -54,17 +57,18 @@ def fit(
         ``{1: ("10.9 s", "0.1 s"), 2: (3.8, 0.05)}``. Give uncertainties for all speeds or for none. Without them all speeds
         have equal relative weight, and their uncertainty is estimated from the residuals.
     vary : str, list of str or dict
-        Paths of the data that may change, as in `tune`. A dictionary also gives a start value, which is needed if the
-        support is firm or a mass is 0: ``{"support.stiffness": 2000.0}``.
+        Paths of the data that may change, as in `tune`, such as ``"links[load].mass"``; ``"gravity"`` is one of them. A
+        dictionary also gives a start value, which is needed if the support is firm or a mass is 0:
+        ``{"support.stiffness": 2000.0}``.
     gravity : float, optional
-        Acceleration of gravity, m/s^2; standard gravity if left out.
+        Acceleration of gravity, m/s^2; standard gravity if left out. The start value if it varies.
 
     Returns
     -------
     Fitted
-        The new system; the values with standard uncertainties, covariance and correlation; residuals and chi-square; the
-        data that the measurements do not determine. Cost: 5 to 30 times that of the modes; each datum without derivatives
-        multiplies it by five.
+        The new system; the values with standard uncertainties, covariance and correlation; residuals and chi-square; which
+        measurement disagrees with the others; the data that the measurements do not determine. Cost: 5 to 30 times that of
+        the modes; each datum without derivatives multiplies it by five.
 
     Raises
     ------
@@ -85,6 +89,14 @@ def fit(
     millionth of their standard uncertainties of a local minimum of the sum of squares. It is not proved that there is no
     lower minimum far from the start. Uncertainties are to first order: they assume that speeds are linear in the data.
 
+    Which measurement disagrees: the leverage of a measurement is its element h on the diagonal of the hat matrix, the part
+    of a change of the measured value by which the computed one follows. Its residual has the standard deviation
+    ``u * sqrt(1 - h)``; the residual divided by it is `Fitted.standardized_residual`. Without given uncertainties the
+    scatter of the other measurements takes the place of u (externally studentized residual), which needs two degrees of
+    freedom. The table says that the measurement with the largest one disagrees if it exceeds `Fitted.disagreement_limit`.
+    If the model is correct, at most one fit in a hundred does so by chance (Bonferroni's inequality, for all measurements
+    together). To first order; Cook and Weisberg, *Residuals and Influence in Regression* (1982), chapter 2.
+
     Speeds depend on ratios of masses: those of a chain on a firm support cannot determine all its masses. Such
     combinations have singular values of the derivatives below 1e-8 of the largest; the result names them.
 
@@ -100,6 +112,13 @@ def fit(
     (array([  24.21, 2652.13]), array([ 0.11, 36.99]))
     >>> rc.fit(crane, measured, vary=["links[0].mass", "links[1].mass"]).undetermined
     (('links[0].mass', 'links[1].mass'),)
+
+    Gravity, from three periods of a bead chain of 1.2 m:
+
+    >>> timed = {1: ("1.83 s", "0.01 s"), 2: ("0.79 s", "0.01 s"), 3: ("0.512 s", "0.005 s")}
+    >>> found = rc.fit(rc.Cord("1.2 m"), timed, vary="gravity")
+    >>> print(f"{found.gravity:.2f} +- {found.standard_uncertainty[0]:.2f} m/s^2")
+    9.78 +- 0.09 m/s^2
     """
     if not isinstance(system, System):
         raise no_system(_CALLER, system)
@@ -119,9 +138,9 @@ def fit(
             f"{_CALLER}: vary has {len(paths)} data for {len(number)} measured speed{'s' * (len(number) > 1)}; vary at most "
             f"{len(number)}, or measure more modes"
         )
-    data = [datum_at(_CALLER, system, path, g) for path in paths]
-    refuse_overlap(_CALLER, paths)
-    turns = system.has_momentum or any("flywheels" in path for path in paths)
+    data = [gravity_datum(system, g) if path == "gravity" else datum_at(_CALLER, system, path, g) for path in paths]
+    refuse_overlap(_CALLER, data)
+    turns = system.has_momentum or any(datum.path.startswith("flywheels") for datum in data)
     if (number < 0).any() and not turns:
         raise ValueError(
             f"{_CALLER}: measured: modes are counted from 1; only a rig with flywheels has backward modes, -1 the slowest, "
@@ -147,10 +166,12 @@ class _Model:
     def at(self, free: Floats) -> tuple[Any, Speeds]:
         """The system and its speeds; a ValueError if such a system is impossible or lacks these modes."""
         if self.kept[0] != free.tobytes():
-            system = self.system
-            for datum, value in zip(self.data, self.values(free), strict=True):
-                system = datum_at(_CALLER, system, datum.path, self.gravity).change(float(value))
-            self.kept = (free.tobytes(), (system, speeds(_CALLER, system, self.number, self.gravity)))
+            paths = [datum.said for datum in self.data]
+            system, values = self.system, dict(zip(paths, self.values(free).tolist(), strict=True))
+            gravity = values.pop("gravity", self.gravity)
+            for path, value in values.items():
+                system = datum_at(_CALLER, system, path, gravity).change(value)
+            self.kept = (free.tobytes(), (system, speeds(_CALLER, system, self.number, gravity)))
         found: tuple[Any, Speeds] = self.kept[1]
         return found
 
@@ -167,6 +188,9 @@ class _Model:
         rates = self._rates(there)
         columns = []
         for k, (datum, value) in enumerate(zip(self.data, self.values(free), strict=True)):
+            if datum.path == "gravity" and there.modes.system._fixes_gravity is None:  # speeds rise with its root
+                columns.append(0.5 * there.speed / self.deviation)
+                continue
             if datum.rate is None or rates is None:
                 columns.append(self._difference(free, k))
                 continue
@@ -180,7 +204,7 @@ class _Model:
         if there.modes.system._kind == "rig":
             if there.modes.system._has_pins:
                 return None
-            return rig_derivatives(there.modes.system, there.speed, there.modes.shape[there.rows], self.gravity)
+            return rig_derivatives(there.modes.system, there.speed, there.modes.shape[there.rows], there.modes.gravity)
         if self.system._kind != "chain":
             return None
         of_heights: Any = there.modes.sensitivity
@@ -267,10 +291,14 @@ class _Known:
 
 def _fitted(model: _Model, free: Floats, converged: bool, known: _Known, deviation: Floats | None) -> Fitted:
     system, there = model.at(free)
-    values, paths = model.values(free), tuple(datum.path for datum in model.data)
+    values, paths = model.values(free), tuple(datum.said for datum in model.data)
     inner = np.array([_inner(*each) for each in zip(model.data, values, strict=True)])
     covariance = known.covariance * np.outer(inner, inner) * model.scale**2
-    left, freedom = float((model.off(free) ** 2).sum()) / model.scale**2, len(model.number) - known.rank
+    off, slopes = model.off(free) / model.scale, model.slopes(free)
+    left, freedom = float((off**2).sum()), len(model.number) - known.rank
+    inverse = _Known(slopes, model.measured / model.deviation).inverse
+    leverage = np.clip(np.einsum("ik,kl,il->i", slopes, inverse, slopes), 0.0, 1.0)
+    standardized, limit = _standardized(-off, leverage, freedom, deviation is None)
     if deviation is None:
         spread = left / freedom if freedom else math.nan
         covariance, deviation = covariance * spread, np.abs(model.measured) * math.sqrt(spread)
@@ -282,18 +310,50 @@ def _fitted(model: _Model, free: Floats, converged: bool, known: _Known, deviati
         status="undetermined" if known.groups and converged else "success" if converged else "not_converged",
         vary=paths,
         system=system,
-        gravity=model.gravity,
+        gravity=there.modes.gravity,
         value=values,
         covariance=covariance,
         present=np.array([datum.present for datum in model.data]),
+        unit=tuple(_unit(datum, system.by_mass) for datum in model.data),
         number=model.number,
         measured=model.measured,
         measured_uncertainty=deviation,
         computed=there.speed,
+        leverage=leverage,
+        standardized_residual=standardized,
+        disagreement_limit=limit,
         chi_square=chi_square,
         degrees_of_freedom=freedom,
         undetermined=tuple(tuple(paths[k] for k in group) for group in known.groups),
     )
+
+
+def _standardized(residual: Floats, leverage: Floats, freedom: int, estimated: bool) -> tuple[Floats, float]:
+    """The standardized residuals, and the size that the largest of them exceeds by chance in one fit of a hundred.
+
+    `residual` is divided by the uncertainties; if these are unknown (`estimated`), the residuals are studentized externally:
+    by the scatter of the other measurements.
+    """
+    free = 1 - leverage > _FIXED  # the fit passes through the others, whatever was measured
+    share = np.where(free, 1 - leverage, np.nan)
+    standardized, law = residual / np.sqrt(share), np.inf
+    if estimated:
+        law = freedom - 1
+        if law < 1 or (residual**2).sum() < _ROUNDED**2:
+            return np.full(len(residual), np.nan), math.nan
+        others = np.maximum((residual**2).sum() - standardized**2, 0.0) / law
+        with np.errstate(divide="ignore", invalid="ignore"):  # no scatter at all
+            standardized = standardized / np.sqrt(others)
+    if not free.any() or freedom < 1:
+        return standardized, math.nan
+    special, tail = require("scipy.special", "fit", _CALLER), _CHANCE / (2 * int(free.sum()))
+    return standardized, float(-special.ndtri(tail) if law == np.inf else -special.stdtrit(law, tail))
+
+
+def _unit(datum: Datum, by_mass: bool) -> str:
+    """The unit of a datum; empty if it depends on that of the weights, which is unknown."""
+    unit = SI[datum.quantity][0] if datum.quantity in SI else ""
+    return unit if by_mass or not {"N", "N/m", "kg"} & set(unit.split()) else ""
 
 
 def _inner(datum: Datum, value: float) -> float:
@@ -307,17 +367,17 @@ def _bounded(datum: Datum, free: float) -> float:
 
 def _start(datum: Datum, given: Any) -> float:
     """The variable that stands for the start value of a datum."""
-    value = datum.present if given is None else real(_CALLER, f"{datum.quantity} (start of {datum.path})", given)
+    value = datum.present if given is None else real(_CALLER, f"{datum.quantity} (start of {datum.said})", given)
     if datum.floor is None and math.isfinite(value):
         return value / datum.typical
     if datum.floor is not None and datum.floor < value < math.inf:
         return math.log(value - datum.floor)
     if given is None:
         raise ValueError(
-            f"{_CALLER}: {datum.path} is {value:g}: give a start value, as in vary={{\"{datum.path}\": {datum.typical:.3g}}}"
+            f"{_CALLER}: {datum.said} is {value:g}: give a start value, as in vary={{\"{datum.said}\": {datum.typical:.3g}}}"
         )
     limit = "finite" if datum.floor is None else f"finite and more than {datum.floor:.6g}"
-    raise ValueError(f"{_CALLER}: the start of {datum.path} must be {limit}, got {value:g}")
+    raise ValueError(f"{_CALLER}: the start of {datum.said} must be {limit}, got {value:g}")
 
 
 def _varied(vary: Any) -> tuple[list[Any], list[Any]]:
@@ -331,7 +391,7 @@ def _varied(vary: Any) -> tuple[list[Any], list[Any]]:
         with suppress(TypeError):  # numpy's arrays without an axis
             paths = list(vary) if isinstance(vary, Iterable) and not isinstance(vary, bytes) else []
     if not paths:
-        such = '["length", "links[0].mass"]'
+        such = '["length", "links[load].mass"]'
         raise ValueError(f"{_CALLER}: vary must be a path or a list of paths such as {such}, got {shown(vary)}")
     return paths, list(vary.values()) if isinstance(vary, Mapping) else [None] * len(paths)
 

@@ -279,7 +279,14 @@ def _of_cord(cord: Cord, asked: _Asked) -> Modes:
     asked.refuse("method precision certify", "is for a Chain; the heights of a Cord have closed forms or power series")
     wanted = _of_infinitely_many(asked)
     speeds = asked.speeds_and_gravity
-    found = _core.cord_modes(cord._compiled, asked.first, wanted, asked.heights, speeds, asked.rtol, asked.progress)
+    try:
+        found = _core.cord_modes(cord._compiled, asked.first, wanted, asked.heights, speeds, asked.rtol, asked.progress)
+    except ValueError as error:
+        _, followed, number = str(error).partition(" to follow up to critical height, got ")
+        if not followed or not (cord._particles or cord._bob[0]):
+            raise
+        what = "masses, tip or bob are too far from the cord's own mass and length"
+        raise ValueError(f"{_CALLER}: {what} to follow mode {number}; use its chain: cord.chain(100)") from None
     return Modes._made(found, system=cord, gravity=asked.gravity, rtol=asked.rtol)
 
 

@@ -15,7 +15,7 @@ from .. import _core
 from ..results.tuned import Tuned
 from ..systems.chain import Chain, compiled
 from ..systems.cord import Cord
-from ..systems.datum import Datum, datum_at
+from ..systems.datum import Datum, datum_at, gravity_datum
 from ..systems.held import Held
 from ..systems.numbers import STANDARD_GRAVITY, count, exactly_one, height_of, one_positive, real, shown
 from ..systems.rig import Rig
@@ -26,7 +26,7 @@ from .shapes import shape_on_branch
 from .speeds import speeds
 
 _CALLER = "revchain.tune"
-_PATHS = '"length", "links[0].mass", "support.stiffness" or "flywheels[0].momentum"'
+_PATHS = '"length", "links[load].mass", "links[0].mass", "support.stiffness" or "gravity"'
 _SEARCHED = 65  # values
 
 
@@ -52,7 +52,8 @@ def tune(
 
         - ``"length"``: length of the whole chain or cord, which keeps its proportions; also in a rig or a held system.
         - ``"mass"`` (``"weight"``): mass of the whole chain in a rig or a held system, or of a cord without its tip.
-        - ``"links[k].NAME"``: datum of a link of a chain (also in a rig or a held system), k from 0 for the lowest. NAME is
+        - ``"links[k].NAME"``: datum of a link of a chain (also in a rig or a held system); k is the name of the link
+          (``"links[hook block].length"``) or its index, from 0 for the first one listed (see `Chain.order`). NAME is
           ``mass`` (``weight``), ``length`` (with centre of gravity and radius of gyration constant),
           ``length_in_proportion`` (they grow with it, as for a point mass on a thread), ``centroid`` or
           ``radius_of_gyration``.
@@ -60,6 +61,7 @@ def tune(
           flywheels and displaced fluid: ``"flywheels[k].spin"``, ``.mass``, ``.radius_of_gyration``, ``.axial_moment``,
           ``"displaced[k].mass"``, ``.added_mass``, ``.centroid``, ``.radius_of_gyration``.
         - for a cord also ``"tip_mass"``; for a held system ``"tension"`` or ``"span"``.
+        - ``"gravity"``: not a datum of the system; needs `angular_speed`.
     mode : int
         Number of the mode, from 1 for the slowest; for a rig with flywheels among those of the direction of the speed; at a
         span the number of half waves.
@@ -100,6 +102,8 @@ def tune(
     in proportion and with a radius of gyration; with other data it may have extrema. A mass loads every link above; the
     search then takes steps that cannot miss a value, because the relative change of a height has a bound (that of the
     mass, if no centre of gravity is above its pin). The range leaves out masses with which a link would be inverted.
+
+    The speeds of a chain, a cord and a held chain given by weight rise with the root of gravity, which gives one value.
 
     A rig has one stiffness, one momentum and one spin of a link for each speed, computed in double-double to 1e-15; the
     modes of the new rig give the number of the mode.
@@ -157,23 +161,28 @@ def tune(
         raise ValueError(f"{_CALLER}: top_tension is for a system held at a span; leave it out, got {shown(top_tension)}")
     if system._is_held and not bent:
         straight(_CALLER, of, g)
-    datum = datum_at(_CALLER, system, vary, g)
+    datum = gravity_datum(system, g) if vary == "gravity" else datum_at(_CALLER, system, vary, g)
+    if vary == "gravity" and (bent or name == "conical_height"):
+        why = "of a system held at a span" if bent else "for a conical height, which does not depend on it"
+        raise ValueError(f"{_CALLER}: gravity cannot be found {why}; give angular_speed, of a system that has modes")
     height, speed = _height_and_speed(name, value, g)
-    if system._kind == "chain" and vary != "length":
+    if system._kind == "chain" and vary not in ("length", "gravity"):
         return _link(of, datum, number, name, value, g, between)
     if bent:
         pull = one_positive(_CALLER, "top_tension", top_tension)
-        return _searched(datum, speed, g, between, lambda held: _speed_under(held, number, pull, g))
+        return _searched(datum, speed, g, between, lambda x: _speed_under(datum.change(x), number, pull, g))
     one: Tuned | None = None
-    if system._kind == "rig":
+    if vary == "gravity":
+        one = _gravity(system, datum, number, speed) if system._fixes_gravity is None else None
+    elif system._kind == "rig":
         one = _formed(of, datum, number, speed, g)
     elif vary == "length" and not (system._is_held and not of.is_plain):  # springs keep their stiffness
         one = _length(of, datum, number, height, g)
     if one is None:
         signed = np.array([number if speed > 0 else -number])
 
-        def speed_of(changed: Any) -> tuple[float, float]:
-            found = speeds(_CALLER, changed, signed, g)
+        def speed_of(value: float) -> tuple[float, float]:
+            found = speeds(_CALLER, datum.change(value), signed, value if vary == "gravity" else g)
             return float(found.speed[0]), float(found.bound[0])
 
         return _searched(datum, speed, g, between, speed_of)
@@ -209,7 +218,7 @@ def _link(chain: Chain, datum: Datum, mode: int, name: str, wanted: float, gravi
     return Tuned._made(
         None,
         status=status,
-        system=None if found is None else Chain._wrap(found, chain.by_mass, chain.names),
+        system=None if found is None else Chain._wrap(found, chain.by_mass, chain.names, chain.order),
         value=None if found is None else tuned,
         error_bound=None if found is None else bound,
         values=values,
@@ -217,7 +226,7 @@ def _link(chain: Chain, datum: Datum, mode: int, name: str, wanted: float, gravi
         present=present,
         between=(low, high),
         reachable=(lowest, highest) if status != "found" else None,
-        vary=datum.path,
+        vary=datum.said,
     )
 
 
@@ -226,6 +235,13 @@ def _length(system: Chain | Cord | Held, datum: Datum, mode: int, height: float,
     found = modes(system, 1, first=mode, gravity=gravity)
     length = height / float(found.conical_height[0]) * datum.present
     return _one(system, datum, datum.change(length), length, length * (float(found.error_bound[0]) + 2.0**-50))
+
+
+def _gravity(system: Any, datum: Datum, mode: int, speed: float) -> Tuned:
+    """The gravity at which a mode has a speed, if its height does not depend on gravity."""
+    found = speeds(_CALLER, system, np.array([mode]), datum.present)
+    value = datum.present * (speed / float(found.speed[0])) ** 2
+    return _one(system, datum, system, value, value * (2 * float(found.bound[0]) + 2.0**-50))
 
 
 def _one(system: Any, datum: Datum, tuned: Any, value: float | None, bound: float | None) -> Tuned:
@@ -241,7 +257,7 @@ def _one(system: Any, datum: Datum, tuned: Any, value: float | None, bound: floa
         present=datum.present,
         between=(-np.inf if datum.floor is None else 0.0, np.inf),
         reachable=None,
-        vary=datum.path,
+        vary=datum.said,
     )
 
 
@@ -282,7 +298,7 @@ def _speed_under(held: Held, mode: int, tension: float, gravity: float) -> tuple
 
 
 def _searched(
-    datum: Datum, speed: float, gravity: float, between: Any, speed_of: Callable[[Any], tuple[float, float]]
+    datum: Datum, speed: float, gravity: float, between: Any, speed_of: Callable[[float], tuple[float, float]]
 ) -> Tuned:
     """The values by bisection between neighbours whose speeds enclose the wanted one."""
 
@@ -290,7 +306,7 @@ def _searched(
 
     def found(value: float) -> tuple[float, float]:
         """Speed divided by the wanted one, less 1, and its bound; a ValueError if the system has no such mode."""
-        there, bound = speed_of(datum.change(value))
+        there, bound = speed_of(value)
         reached.append(there)
         return there / speed - 1, bound * there / speed + 2.0**-52
 
@@ -331,8 +347,8 @@ def _searched(
         complete=datum.one_way and nearest is not None,
         present=datum.present,
         between=(low, high),
-        reachable=(float(heights.min()), float(heights.max())) if nearest is None else None,
-        vary=datum.path,
+        reachable=None if nearest is not None or datum.path == "gravity" else (float(heights.min()), float(heights.max())),
+        vary=datum.said,
     )
 
 

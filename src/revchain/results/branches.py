@@ -3,23 +3,35 @@
 
 from __future__ import annotations
 
-from typing import Any
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import groupby, pairwise
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core
-from ..systems.numbers import Floats, Whole, count, height_of, one_positive, place_of
+from ..systems.numbers import Floats, Whole, count, height_of, one_positive, place_of, word
+from ..systems.units import SPEED_UNITS
 from .base import Field, Result, Results, UnavailableError
 from .moving import Moving
 from .shapes import FORCES, SteadyShape, forced, is_driven, shape_made, stacked
+from .sheet import Column, Sheet, as_dataframe, as_rows
 
+if TYPE_CHECKING:
+    from pandas import DataFrame
 
 Pair = tuple[float, float]
+_Part = tuple[float, float, float, float, str]  # arc at both ends, conical height at both ends, verdict
+MOST_JUDGED = 150_000
+"""Points times links squared whose stability takes about a second: above it tables and pictures leave it out."""
 
 
 class StabilityWindow(Result, row="end", title="Stability window: {verdict}"):
-    """A part of a branch with one verdict on stability; returned by `Branch.stability_windows`.
+    """A part of a branch with one verdict on stability; an item of `StabilityWindows`.
 
     Examples
     --------
@@ -32,11 +44,84 @@ class StabilityWindow(Result, row="end", title="Stability window: {verdict}"):
     __slots__ = ()
     end: Field[tuple[str, str]] = Field("Names of the ends.", lambda w: ("start", "end"), heading="at")
     verdict: Field[str] = Field("``'minimum'``, ``'spectrally stable'``, ``'unstable'`` or ``'undecided'``.", fact=True)
+    change: Field[str] = Field(
+        "How the verdict changes at the end of the window. ``'fold'``: two shapes meet there. ``'Hamiltonian Hopf'``: two "
+        "frequencies of small motion meet and leave the imaginary axis, or return to it (with dashpots ``'Hopf'``: one "
+        "pair of exponents crosses it). ``'momentum fold'``: the angular momentum, which is constant in the free frame, has "
+        "an extremum along the branch. ``'zero exponent'``: an exponent passes 0 elsewhere, so that shapes may branch off "
+        "that leave the plane; they are not followed. ``'end'``: the branch ends. ``'undecided'``: the errors of the exponents leave it open.",
+        fact=True,
+    )
     angular_speed: Field[Pair] = Field(
         "Speed at both ends, rad/s; the end nearer to the start of the branch first.", heading="speed", unit="rad/s"
     )
     conical_height: Field[Pair] = Field("Conical height at both ends, m.", heading="height", unit="m")
     arc: Field[Pair] = Field("`Branch.arc` at both ends.", heading="along the branch")
+
+
+def _of_windows(doc: str, name: str, end: int, **column: Any) -> Field[Any]:
+    """A number at one end of each window."""
+    return Field(doc, lambda w: np.array([getattr(each, name)[end] for each in w], float), **column)
+
+
+def _speed_of_windows(which: str, word_of_end: str, end: int) -> Field[Any]:
+    """The speed at one end of each window, which is printed in the unit asked for."""
+
+    def heading(windows: Any) -> str:
+        return f"{word_of_end} {SPEED_UNITS[windows.unit][0]} ({windows.unit})"
+
+    def shown_in_unit(windows: Any) -> Floats:
+        speed, per = getattr(windows, f"{which}_speed"), SPEED_UNITS[windows.unit][1]
+        return np.asarray(per / speed if windows.unit == "s" else per * speed)
+
+    doc = f"Speed at the {which} of each window, rad/s; printed in `unit`."
+    return _of_windows(doc, "angular_speed", end, heading=heading, unit="rad/s", shown=shown_in_unit)
+
+
+class StabilityWindows(Results[StabilityWindow], row="window", title="{_title_words}"):
+    """The windows of stability of a branch, in the order of its arc, or of all branches of a diagram.
+
+    `Branch.stability_windows` and `Branches.stability_windows` return it; it is a sequence of `StabilityWindow`.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> chain = rc.Chain.uniform_plummets(2, length=2.0)
+    >>> rc.branches(chain, max_angular_speed=9.0).stability_windows()
+    3 windows of stability of 2 branches, in the free frame
+    branch  mode            verdict  from speed (rad/s)  to speed (rad/s)  from height (m)  to height (m)  change at the end
+         0     1            minimum             2.40131           9.00000          1.70069       0.121070                end
+         1     2  spectrally stable             5.79727           8.50090         0.291792       0.135704   Hamiltonian Hopf
+         1     2           unstable             8.50090           9.00000         0.135704       0.121070                end
+    """
+
+    __slots__ = ()
+    frame: Field[str] = Field("``'free'`` or ``'driven'``, as in `SteadyShape.stability`.", fact=True)
+    branch: Field[Whole | None] = Field(
+        "Number of the branch of each window; None for the windows of one branch.", heading="branch"
+    )
+    mode: Field[tuple[str, ...] | None] = Field(
+        "`Branches.mode` of the branch of each window; None for the windows of one branch.", heading="mode"
+    )
+    verdict: Field[tuple[str, ...]] = Field(
+        "Verdict of each window.", lambda w: tuple(each.verdict for each in w), heading="verdict"
+    )
+    start_speed = _speed_of_windows("start", "from", 0)
+    end_speed = _speed_of_windows("end", "to", 1)
+    start_height = _of_windows("Conical height at the start, m.", "conical_height", 0, heading="from height", unit="m")
+    end_height = _of_windows("Conical height at the end, m.", "conical_height", 1, heading="to height", unit="m")
+    start_arc = _of_windows("`Branch.arc` at the start.", "arc", 0, axes=())
+    end_arc = _of_windows("`Branch.arc` at the end.", "arc", 1, axes=())
+    change: Field[tuple[str, ...]] = Field(
+        "`StabilityWindow.change` of each window.", lambda w: tuple(each.change for each in w), heading="change at the end"
+    )
+    branches: Field[int] = Field("Number of branches.", fact=True)
+    unit: Field[str] = Field("Unit of the printed speeds: ``'rad/s'``, ``'rpm'``, ``'Hz'`` or ``'s'`` (the period).")
+
+    @property
+    def _title_words(self) -> str:
+        of = f"{self.branches} branch{'es' * (self.branches != 1)}"
+        return f"{len(self)} window{'s' * (len(self) != 1)} of stability of {of}, in the {self.frame} frame"
 
 
 class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spread=True):
@@ -142,8 +227,18 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         lambda b: b._inclination(),
         axes=lambda b: ("place",) if isinstance(b.inclination, tuple) else ("link",),
     )
+    verdict: Field[tuple[str, ...]] = Field(
+        "Verdict of `SteadyShape.stability` at each point, in the free frame; empty for the straight chain. Not for cords. "
+        "Files and data frames have this column if it takes less than about a second (points times links squared at most "
+        "150,000), or was computed before.",
+        lambda b: b._verdicts(),
+    )
     folds: Field[Whole] = Field(
         "Indices of the points at which the conical height has a local extremum: two shapes appear or merge there.",
+    )
+    _windows: Field[tuple[tuple[float, float, str], ...]] = Field(
+        "Parts with one verdict in the free frame: their ends, counted in points, and the verdict.",
+        lambda b: b._judged("free"),
     )
     _points: Field[Floats] = Field("The numbers that give the shapes.", lambda b: b._found().points, part=True)
     _shapes: Field[dict[str, Any] | None] = Field("The numbers of the shape at each point of a held system, else None.")
@@ -186,19 +281,19 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
 
     def at(
         self,
+        angular_speed: float | None = None,
         *,
         conical_height: float | None = None,
-        angular_speed: float | None = None,
         gravity: float | None = None,
     ) -> tuple[SteadyShape, ...]:
         """Return the shapes at a speed on the part of the branch that was followed.
 
         Parameters
         ----------
+        angular_speed : float or str
+            Speed in rad/s, or text such as ``"30 rpm"``, positive.
         conical_height : float
-            Conical height of the speed, m, positive.
-        angular_speed : float
-            Speed in rad/s, positive, instead of `conical_height`.
+            Conical height of the speed, m, positive, instead of `angular_speed`.
         gravity : float, optional
             Acceleration of gravity, m/s^2; that of the branch if left out. For a rig it must be that of the branch,
             because the effect of springs and wheels depends on it.
@@ -218,8 +313,8 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         --------
         >>> import revchain as rc
         >>> branch = rc.branch(rc.Chain.uniform_plummets(2, length=2.0), 1, min_conical_height=0.1)
-        >>> [shape.half_waves for shape in branch.at(conical_height=0.2)]
-        [1]
+        >>> [shape.half_waves for shape in branch.at(7.0)], len(branch.at("20 rpm"))
+        ([1], 0)
         """
         caller = "revchain.Branch.at"
         g = self.gravity if gravity is None else one_positive(caller, "gravity", gravity)
@@ -233,8 +328,8 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         return tuple(shape_made(found, self.system, g, self.direction) for found in self._found().shapes_at(height))
 
     def stability_windows(
-        self, *, frame: str = "free", tolerance: float = 1e-6, samples: int = 8
-    ) -> list[StabilityWindow]:
+        self, *, frame: str = "free", tolerance: float = 1e-6, samples: int = 8, speed: str = "rad/s"
+    ) -> StabilityWindows:
         """Return the windows of stability along the branch of a chain or rig.
 
         Parameters
@@ -245,18 +340,27 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
             Tolerance of the edges, relative in conical height and absolute in arc.
         samples : int, optional
             Number of places to examine between two points of the branch, with one end.
+        speed : {"rad/s", "rpm", "Hz", "s"}, optional
+            Unit in which the table prints speeds (``"s"``: periods). The fields and files are in rad/s.
 
         Returns
         -------
-        list of StabilityWindow
-            The windows in the order of the arc. They cover the branch except the part from the vertical to the next
-            point. Edges are located by bisection. A window shorter than the distance of the places can be missed.
+        StabilityWindows
+            The windows in the order of the arc, a sequence that prints as a table. They cover the branch except the part
+            from the vertical to the next point, and begin anew at folds, so that the speed rises or falls along each.
+            Edges are located by bisection; `StabilityWindow.change` says what happens there. A window shorter than the
+            distance of the places can be missed.
 
         Raises
         ------
         ValueError
-            If `frame` is another word, `tolerance` is not positive or `samples` is below 1; for cords and held systems,
+            If `frame` or `speed` is another word, `tolerance` is not positive or `samples` is below 1; for cords and held systems,
             whose shapes have their stability: ``branch.shape(k).stability()``.
+
+        Notes
+        -----
+        Cost: 8 verdicts for each point of the branch, and some 20 for each edge. For N links a verdict takes about
+        ``6.5 * N**2`` microseconds, up to 20 links; 10 ms for 40 links. With ``samples=1`` it takes an eighth.
 
         Examples
         --------
@@ -264,27 +368,174 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         >>> chain = rc.Chain.uniform_plummets(2, length=2.0)
         >>> second = rc.modes(chain).conical_height[1]
         >>> for window in rc.branch(chain, 2, min_conical_height=0.1 * second).stability_windows():
-        ...     print(window.verdict, round(window.conical_height[1] / second, 5))
-        spectrally stable 0.46332
-        unstable 0.1
+        ...     print(window.verdict, round(window.conical_height[1] / second, 5), window.change)
+        spectrally stable 0.46332 Hamiltonian Hopf
+        unstable 0.1 end
         """
         caller = "revchain.Branch.stability_windows"
+        unit = word(caller, "speed", speed, SPEED_UNITS)
+        found = self._listed_windows(caller, frame, tolerance, samples)
+        given = {"frame": frame, "branch": None, "mode": None, "branches": 1, "unit": unit}
+        return StabilityWindows._made(None, _items=tuple(found), **given)
+
+    def _listed_windows(self, caller: str, frame: str, tolerance: float, samples: int) -> list[StabilityWindow]:
+        """The windows of stability."""
         driven = is_driven(caller, frame)
         wide = one_positive(caller, "tolerance", tolerance)
         places = min(count(caller, "samples", samples), 10**6)
-        if self._shapes is not None or not isinstance(self._found(), _core.Branch):
+        if not self._is_of_links:
             raise ValueError(f"{caller}: is for chains; use the stability of shapes: branch.shape(-1).stability()")
         found = _core.stability_windows(self.system._under(self.gravity), self._found(), driven, wide, places)
+        windows = self._split_at_folds(found, wide)
+        changes = self._changes(windows, frame)
         return [
             StabilityWindow._made(
                 None,
                 verdict=verdict,
+                change=change,
                 conical_height=(h0, h1),
                 arc=(s0, s1),
                 angular_speed=((self.gravity / h0) ** 0.5, (self.gravity / h1) ** 0.5),
             )
-            for s0, s1, h0, h1, verdict in found
+            for (s0, s1, h0, h1, verdict), change in zip(windows, changes, strict=True)
         ]
+
+    def _split_at_folds(self, found: list[_Part], tolerance: float) -> list[_Part]:
+        """The windows, which are split at folds, so that the speed rises or falls all along each."""
+        windows = []
+        for s0, s1, h0, h1, verdict in found:
+            for k in self.folds:
+                arc, height = float(self.arc[k]), float(self.conical_height[k])
+                if s0 + 10 * tolerance < arc < s1 - 10 * tolerance and verdict != "undecided":
+                    windows.append((s0, arc, h0, height, verdict))
+                    s0, h0 = arc, height
+            windows.append((s0, s1, h0, h1, verdict))
+        return windows
+
+    def _changes(self, windows: list[_Part], frame: str) -> list[str]:
+        """How the verdict changes at the end of each window."""
+        changes: list[str] = []
+        at_folds = self.arc[self.folds]
+        for before, after in pairwise(windows):
+            edge, near = before[1], 1e-5
+            for low, high, _, _, verdict in (before, after):
+                if verdict == "undecided":
+                    near = max(near, 1.01 * (high - low))
+            if (np.abs(at_folds - edge) <= near).any():
+                changes.append("fold")
+            elif "undecided" in (before[4], after[4]):
+                changes.append("undecided")
+            elif "unstable" not in (before[4], after[4]):
+                changes.append("zero exponent")
+            else:
+                far = before[2] if before[4] == "unstable" else after[3]
+                changes.append(self._growth(edge, before[3], far - before[3], frame))
+        return [*changes, *["end"] * (len(windows) > 0)]
+
+    def _growth(self, arc: float, height: float, ahead: float, frame: str) -> str:
+        """How the fastest disturbance grows just beyond an edge, at a height towards which the shape is unstable."""
+        inclination = np.array([np.interp(arc, self.arc, each) for each in self.inclination.T])
+
+        def shape_at(h: float) -> Any:
+            shapes = self.at(conical_height=h)
+            return min(shapes, key=lambda shape: float(np.abs(shape.inclination - inclination).max()), default=None)
+
+        step = math.copysign(min(1e-3 * height, 0.1 * abs(ahead)), ahead)
+        beyond, here, short = (shape_at(height + k * step) for k in (1, 0, -1))
+        found = None if beyond is None else beyond.stability(frame=frame)
+        if found is None or found.verdict != "unstable":
+            return "undecided"
+        fastest = found.exponents[np.argmax(found.exponents.real)]
+        if abs(fastest.imag) > 1e-9 * abs(fastest):
+            return "Hopf" if getattr(self.system, "is_damped", False) else "Hamiltonian Hopf"
+        support = self.system._support
+        if frame == "free" and (support is None or not support.radius) and None not in (here, short):
+            rises = [each.angular_momentum - here.angular_momentum for each in (beyond, short)]
+            return "momentum fold" if rises[0] * rises[1] > 0 else "zero exponent"
+        return "zero exponent"
+
+    def _judged(self, frame: str) -> tuple[tuple[float, float, str], ...]:
+        """Parts of the branch with one verdict: their ends, counted in points, and the verdict."""
+        if self.system._is_cord:
+            what = "is for links, as each verdict of a cord takes long; ask shapes: branch.shape(-1).stability()"
+            raise UnavailableError(f"revchain.Branch.verdict: {what}")
+        try:
+            if self._is_of_links:
+                system: Any = self.system._under(self.gravity)
+                found = _core.stability_windows(system, self._found(), frame == "driven", 1e-4, 1)
+                parts = [(*np.interp(each[:2], self.arc, self.point).tolist(), each[4]) for each in found]
+            else:
+                shapes = [(k, shape) for k in range(len(self)) if (shape := self._shape_or_none(k)) is not None]
+                each_point = [(k, shape.stability(frame=frame).verdict) for k, shape in shapes]
+                parts = [
+                    (run[0][0] - 0.5, run[-1][0] + 0.5, verdict)
+                    for verdict, same in groupby(each_point, key=lambda each: each[1])
+                    if (run := list(same))
+                ]
+        except ValueError as error:
+            raise UnavailableError(str(error)) from None
+        if parts:
+            parts[0] = (0.0, *parts[0][1:])
+            parts[-1] = (parts[-1][0], len(self) - 1.0, parts[-1][2])
+        return tuple(parts)
+
+    def _verdicts(self) -> tuple[str, ...]:
+        """The verdict at each point."""
+        found: list[str] = []
+        for k in range(len(self)):
+            near = {verdict for low, high, verdict in self._windows if low - 1e-3 <= k <= high + 1e-3}
+            if k > 0 and len(near) == 1:
+                found += near
+                continue
+            shape = self._shape_or_none(k)
+            found.append(shape.stability().verdict if shape is not None else "undecided" if k else "")
+        return tuple(found)
+
+    def _shape_or_none(self, point: int) -> Any:
+        """The shape at a point; None for the straight chain, and where it does not balance."""
+        try:
+            return self.shape(point)
+        except ValueError:
+            return None
+
+    @property
+    def _is_of_links(self) -> bool:
+        """Whether it is the branch of a chain or a rig, whose states lie on an arc."""
+        return self._shapes is None and isinstance(self._found(), _core.Branch)
+
+    @property
+    def _work(self) -> float:
+        """Points times links squared; infinite for cords, where each verdict takes long."""
+        return math.inf if self.system._is_cord else float(len(self) * self.system.size**2)
+
+    def _sheet(self, brief: bool = False) -> Sheet:
+        sheet = super()._sheet(brief)
+        return sheet if brief else replace(sheet, columns=[*sheet.columns, *_verdict_column([self])])
+
+    def to_dataframe(self) -> DataFrame:
+        """Return a pandas table with a row for each point and a column for the inclination of each link.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The table, in SI units. Columns such as ``inclination_link_0`` are in rad; the name of a link, if it has one,
+            is added: ``inclination_link_0_load``.
+
+        Raises
+        ------
+        ImportError
+            If pandas is not installed; the message says how to install it.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> chain = rc.Chain(mass=[1.0, 3.0], length=1.0, names=["load", "hook"])
+        >>> table = rc.branch(chain, 1, min_conical_height=0.1).to_dataframe()
+        >>> [name for name in table if name.startswith("inclination")], table.verdict.iloc[-1]
+        (['inclination_link_0_load', 'inclination_link_1_hook'], 'minimum')
+        """
+        sheet = self._sheet()
+        return as_dataframe(replace(sheet, columns=[part for each in sheet.columns for part in _by_link(each, self.system)]))
 
     @property
     def _per(self) -> float:
@@ -329,7 +580,10 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
     """The branches found down to one conical height; returned by `branches`.
 
     The branches of the modes come first, slowest first; with the support off the axis it is the branch from rest. The
-    isolated branches, which start at folds, follow. Those of a held system are ordered by half waves.
+    isolated branches, which start at folds, follow. With ``hanging_only=False`` those of the other postures come after
+    them, posture by posture. Those of a held system are ordered by half waves.
+
+    The printed table has a row for each branch; data frames, dictionaries and CSV files have one for each point.
 
     Examples
     --------
@@ -346,6 +600,12 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
         "Number of the mode of each branch as text, ``'rest'`` or ``'isolated'``.",
         lambda b: tuple(_born(each) for each in b),
         heading="mode",
+    )
+    inverted: Field[tuple[str, ...] | None] = Field(
+        "Names or numbers of the links that are above their upper pins along each branch, as text; None if the diagram has "
+        "one posture.",
+        lambda b: None if b.hanging_only or b.system._is_cord or b.system._is_held else tuple(_inverted(each.system) for each in b),
+        heading="above their pins",
     )
     points: Field[Whole] = Field(
         "Number of points of each branch.", lambda b: np.array([len(each) for each in b], int), heading="points"
@@ -370,6 +630,11 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
     )
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", fact=True)
     direction: Field[int] = Field("Direction of rotation, 1 or -1; only a rig with flywheels depends on it.", fact=True)
+    hanging_only: Field[bool] = Field(
+        "Whether branches with a link above its upper pin were left out (of a rig: with other links inverted than those "
+        "of the rig); false for cords and held systems.",
+        fact=True,
+    )
     consistent: Field[bool] = Field(
         "Whether at each of the speeds `looked_at` the list is proved (of a cord: scanned) and each of its shapes "
         "lies on exactly one branch. Not for held systems, nor are the next three.",
@@ -377,11 +642,74 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
     )
     complete: Field[bool] = Field(
         "Whether it is also proved that no branch is missing, even a closed one between two of these speeds; for a "
-        "cord whether a theorem counts the shapes (see `steady_shapes`) and every branch was followed to its end.",
+        "cord whether a theorem counts the shapes (see `steady_shapes`) and every branch was followed to its end. With "
+        "``hanging_only=False`` it is false, unless no posture has a shape.",
         fact=True,
     )
     remark: Field[str] = Field("A sentence that says what may be missing.", fact=True)
     looked_at: Field[Floats] = Field("Conical heights at which all shapes were listed, m, descending.", fact=True)
+
+    _stability: Field[bool] = Field("Whether the verdicts were asked for, so that reports list the windows.")
+
+    def stability_windows(
+        self, *, frame: str = "free", tolerance: float = 1e-6, samples: int = 8, speed: str = "rad/s"
+    ) -> StabilityWindows:
+        """Return the windows of stability of all branches in one table.
+
+        Parameters
+        ----------
+        frame, tolerance, samples, speed
+            As in `Branch.stability_windows`.
+
+        Returns
+        -------
+        StabilityWindows
+            The windows, branch by branch; ``branch`` has the number of the branch of each.
+
+        Raises
+        ------
+        ValueError
+            As in `Branch.stability_windows`.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> carousel = rc.Rig(rc.Chain(mass=80.0, length=4.0), support=rc.Support(radius=1.0))
+        >>> windows = rc.branches(carousel, max_angular_speed=4.0).stability_windows()
+        >>> for number, window in zip(windows.branch, windows):
+        ...     print(number, window.verdict, round(window.angular_speed[1], 4), window.change)
+        0 minimum 4.0 end
+        1 unstable 2.2878 fold
+        1 spectrally stable 4.0 end
+        """
+        caller = "revchain.Branches.stability_windows"
+        unit = word(caller, "speed", speed, SPEED_UNITS)
+        each = [branch._listed_windows(caller, frame, tolerance, samples) for branch in self]
+        numbers = np.repeat(np.arange(len(self)), [len(windows) for windows in each])
+        return StabilityWindows._made(
+            None,
+            _items=tuple(window for windows in each for window in windows),
+            frame=frame,
+            branch=numbers,
+            mode=tuple(self.mode[k] for k in numbers),
+            branches=len(self),
+            unit=unit,
+        )
+
+    def _sheet(self, brief: bool = False) -> Sheet:
+        """The branches; unless `brief` all their points, with the branches as a fact."""
+        sheet = super()._sheet(brief)
+        if brief:
+            return sheet
+        words = [each for each in sheet.columns if each.name in ("branch", "mode", "inverted")]
+        columns = [each._replace(values=np.repeat(np.asarray(each.values), self.points)) for each in words]
+        parts = [[part for each in Result._sheet(branch).columns for part in _by_link(each, branch.system)] for branch in self]
+        for column in parts[0] if parts else []:
+            of_each = [each.values for part in parts for each in part if each.name == column.name]
+            if len(of_each) == len(self) and all(isinstance(values, np.ndarray) for values in of_each):
+                columns.append(column._replace(values=np.concatenate(of_each)))
+        columns += _verdict_column(self)
+        return replace(sheet, row="point", columns=columns, facts={**sheet.facts, "branches": as_rows(sheet)})
 
     def _from_parts(self) -> Any:
         what = "the branches of a held system do not have it; steady_shapes proves a list"
@@ -393,7 +721,36 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
             return f"{len(self)} branch{'es' * (len(self) != 1)} from the nearly straight chain"
         isolated = sum(each.mode is None for each in self)
         begin = "from rest" if self and self[0].birth == "rest" else "from the vertical"
-        return f"Branches: {len(self) - isolated} {begin}, {isolated} isolated; {self.remark}"
+        which = "Branches" if self.inverted is None else "Branches in every posture"
+        return f"{which}: {len(self) - isolated} {begin}, {isolated} isolated; {self.remark}"
+
+
+def _by_link(column: Column, system: Any) -> list[Column]:
+    """The column; one for each link if it has a number for each."""
+    if column.axes != ("link",) or not isinstance(column.values, np.ndarray):
+        return [column]
+    names = getattr(system._base, "names", None) or [""] * system.size
+    words = [re.sub(r"\W+", "_", f"link {k} {name}").strip("_") for k, name in enumerate(names)]
+    return [
+        column._replace(name=f"{column.name}_{word}", values=column.values[:, k], axes=()) for k, word in enumerate(words)
+    ]
+
+
+def _verdict_column(branches: Sequence[Branch]) -> list[Column]:
+    """The verdict at each point of branches, if it is known or computed soon and all of them have one."""
+    known = all("verdict" in branch.__dict__ for branch in branches)
+    if not known and sum(branch._work for branch in branches) > MOST_JUDGED:
+        return []
+    verdicts = [getattr(branch, "verdict", None) for branch in branches]
+    if None in verdicts:
+        return []
+    return [Column("verdict", [verdict for each in verdicts for verdict in each or ()])]
+
+
+def _inverted(system: Any) -> str:
+    """The links of a system that are above their upper pins, in words."""
+    names = getattr(system._base, "names", None) or list(map(str, range(system.size)))
+    return ", ".join(name for name, stands in zip(names, system._stands, strict=True) if stands) or "none"
 
 
 def _born(branch: Branch) -> str:
@@ -440,7 +797,38 @@ def _each(shapes: list[Any], name: str) -> list[Any]:
     return [np.ravel(value) for value in values] if name == "_path" else values
 
 
-def branches_made(found: Any, system: Any, gravity: float, direction: int) -> Branches:
-    """Make `Branches` from a list of compiled branches."""
+def branches_made(found: Any, system: Any, gravity: float, direction: int, stability: bool) -> Branches:
+    """Make `Branches` from a list of compiled branches; `stability` says whether its verdicts are asked for."""
     items = tuple(branch_made(each, system, gravity, direction) for each in found.branches)
-    return Branches._made(found, _items=items, system=system, gravity=gravity, direction=direction)
+    given = {"system": system, "gravity": gravity, "direction": direction, "_stability": stability}
+    return Branches._made(found, _items=items, **given, hanging_only=not (system._is_cord or system._is_held))
+
+
+def joined(diagrams: Sequence[Branches], system: Any) -> Branches:
+    """The diagram of all postures of a system from those of each posture; the first is that of the system itself."""
+    first, consistent = diagrams[0], all(each.consistent for each in diagrams)
+    heights = [set(each.looked_at.tolist()) for each in diagrams if not each.complete]
+    looked_at = sorted(set.intersection(*heights) if heights else first.looked_at.tolist(), reverse=True)
+    if all(each.complete for each in diagrams):
+        remark = first.remark
+    elif consistent:
+        remark = (
+            f"{'proved complete in its own posture' if first.complete else first.remark}; in the others each shape of the "
+            "proved lists is on one branch, but loops between two of the heights looked at are not excluded"
+        )
+    else:
+        worst = next(each for each in diagrams if not each.consistent)
+        remark = f"inverted links {_inverted(worst.system)}: {worst.remark}"
+    return Branches._made(
+        None,
+        _items=tuple(branch for each in diagrams for branch in each),
+        system=system,
+        gravity=first.gravity,
+        direction=first.direction,
+        hanging_only=False,
+        _stability=first._stability,
+        consistent=consistent,
+        complete=all(each.complete for each in diagrams),
+        remark=remark,
+        looked_at=np.array(looked_at),
+    )

@@ -34,8 +34,8 @@ class DragShape(Result, row="link", title="{summary}", notes=("{_remarks}",), go
 
     __slots__ = ()
     link: Field[Whole] = Field(
-        "Numbers of the links, from 0 for the lowest.",
-        lambda s: np.arange(s.inclination.size),
+        "Index of each link, lowest first, in the order in which the chain was listed.",
+        lambda s: s.system._link_numbers,
         heading="link",
         shown=lambda s: getattr(s.system, "names", None) or getattr(s.system.chain, "names", None),
     )

@@ -11,6 +11,7 @@ from ..systems.numbers import Floats, Whole, shown
 from .base import Field, Result
 
 _MOST_LINES = 8
+_ALIKE = 1e-6  # relative difference of standardized residuals that are equal
 
 
 class Fitted(Result, row="datum", title="Fitted: {summary}", notes=("{_lines}",), good="status"):
@@ -23,9 +24,9 @@ class Fitted(Result, row="datum", title="Fitted: {summary}", notes=("{_lines}",)
     >>> found = rc.fit(crane, {1: ("10.87 s", "0.02 s"), 2: ("1.60 s", "0.01 s")}, vary=["length", "links[0].mass"])
     >>> found
     Fitted: 2 data to 2 speeds, success; chi-square 0 with 0 degrees of freedom
-    datum            value  standard uncertainty   before
-    length         29.9867              0.108299  30.0000
-    links[0].mass  2683.31               38.4727  2500.00
+    datum            value  standard uncertainty   before  unit
+    length         29.9867              0.108299  30.0000  m
+    links[0].mass  2683.31               38.4727  2500.00  kg
     mode 1: measured 0.578030 rad/s, computed 0.578030, residual +0.0 standard uncertainties
     mode 2: measured 3.92699 rad/s, computed 3.92699, residual +0.0 standard uncertainties
     >>> round(found["length"], 4)
@@ -42,7 +43,7 @@ class Fitted(Result, row="datum", title="Fitted: {summary}", notes=("{_lines}",)
     )
     vary: Field[tuple[str, ...]] = Field("Paths of the data, as given.", heading="datum", column="datum", left=True)
     system: Field[Any] = Field("The system with the new values.")
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", fact=True)
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2; the fitted value if it varied.", fact=True)
     value: Field[Floats] = Field(
         "Values of the data, shape (p,); ``fitted[path]`` is one of them. Many other values of the data in `undetermined` fit "
         "equally well.",
@@ -54,6 +55,9 @@ class Fitted(Result, row="datum", title="Fitted: {summary}", notes=("{_lines}",)
         heading="standard uncertainty",
     )
     present: Field[Floats] = Field("Values of the data before the fit, shape (p,).", heading="before")
+    unit: Field[tuple[str, ...]] = Field(
+        "Unit of each value; empty for a number in the unit of the weights, which is unknown.", heading="unit", left=True
+    )
     covariance: Field[Floats] = Field(
         "Covariance of the values, shape (p, p), to first order. NaN for data in `undetermined`; NaN for all data if no "
         "uncertainties were given and there are no more measurements than data to estimate them.",
@@ -79,6 +83,29 @@ class Fitted(Result, row="datum", title="Fitted: {summary}", notes=("{_lines}",)
     normalized_residual: Field[Floats] = Field(
         "Residuals divided by the uncertainties of the measured speeds, shape (m,).",
         lambda f: _over(f.residual, f.measured_uncertainty),
+        fact=True,
+    )
+    leverage: Field[Floats] = Field(
+        "Leverage of each measurement, shape (m,), from 0 to 1: the diagonal of the hat matrix. Their sum is the number of "
+        "data determined. With leverage 1 a measurement decides a datum alone, and cannot disagree.",
+        fact=True,
+    )
+    standardized_residual: Field[Floats] = Field(
+        "Residual of each measurement divided by its own standard deviation, shape (m,): that of the measurement times "
+        "``sqrt(1 - leverage)``. If no uncertainties were given, that deviation is estimated from the other measurements "
+        "(externally studentized); NaN with fewer than two degrees of freedom. NaN where the leverage is 1.",
+        fact=True,
+    )
+    disagreement_limit: Field[float] = Field(
+        "Size that the largest standardized residual exceeds by chance in at most one fit of a hundred, if model and "
+        "uncertainties are correct: 2.8 for two measurements, 3.3 for ten; more if uncertainties are estimated. NaN if no "
+        "measurement can disagree.",
+        fact=True,
+    )
+    disagreeing: Field[tuple[int, ...]] = Field(
+        "Number of the mode whose measured speed disagrees with the others: its standardized residual is the largest and "
+        "exceeds `disagreement_limit`. Several modes if the measurements cannot tell which one it is; empty if none does.",
+        lambda f: f._most_unlike(),
         fact=True,
     )
     chi_square: Field[float | None] = Field(
@@ -119,6 +146,7 @@ class Fitted(Result, row="datum", title="Fitted: {summary}", notes=("{_lines}",)
         if self.chi_square is not None and free and self.chi_square > free + 5 * (2 * free) ** 0.5:  # five standard deviations
             why = "start nearer, vary other data, or doubt the uncertainties"
             lines.append(f"chi-square is far above its degrees of freedom: {why}")
+        lines += self._disagreement()
         for k, (number, measured, computed) in enumerate(zip(self.number, self.measured, self.computed, strict=True)):
             if k == _MOST_LINES:
                 lines.append(f"and {len(self.number) - k} more measured speeds")
@@ -127,6 +155,24 @@ class Fitted(Result, row="datum", title="Fitted: {summary}", notes=("{_lines}",)
             off = round(float(self.normalized_residual[k]), 1) + 0.0
             lines.append(f"{line}, residual {off:+.1f} standard uncertainties" if np.isfinite(off) else line)
         return "\n".join(lines)
+
+    def _most_unlike(self) -> tuple[int, ...]:
+        """The modes with the largest standardized residual, if it exceeds the limit."""
+        size = np.nan_to_num(np.abs(self.standardized_residual), nan=0.0, posinf=np.inf)
+        most = float(size.max(initial=0.0))
+        return tuple(self.number[size > most * (1 - _ALIKE)].tolist()) if most > self.disagreement_limit else ()
+
+    def _disagreement(self) -> list[str]:
+        """A line on the measurement that disagrees, if there is one."""
+        if not self.disagreeing:
+            return []
+        k = self.number.tolist().index(self.disagreeing[0])
+        size, lever = abs(self.standardized_residual[k]), self.leverage[k]
+        off = f"{size:.1f} standard deviations" if size < 1e3 else "over 1000 standard deviations"
+        if len(self.disagreeing) == 1:
+            return [f"mode {self.disagreeing[0]} disagrees with the others: {off} (leverage {lever:.2f}); measure it again"]
+        modes = ", ".join(map(str, self.disagreeing[:-1])) + f" and {self.disagreeing[-1]}"
+        return [f"modes {modes} disagree: {off}; measure more modes to tell which of them is wrong"]
 
     def _words(self) -> str:
         free = f"{self.degrees_of_freedom} degree{'s' * (self.degrees_of_freedom != 1)} of freedom"

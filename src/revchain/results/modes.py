@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
@@ -448,6 +448,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
 
     def uncertainty(
         self,
+        data: Mapping[str, float | str] | None = None,
         *,
         mass: ArrayLike | None = None,
         weight: ArrayLike | None = None,
@@ -470,6 +471,9 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
 
         Parameters
         ----------
+        data : dict, optional
+            Standard deviations by the path of the datum, as in `tune` and `fit`:
+            ``{"links[load].mass": "5 %", "support.stiffness": "1 kN/m"}``; a number, or text with a unit or in percent.
         mass, weight, length, centroid, radius_of_gyration, length_in_proportion : array_like, optional
             Standard deviation of the quantity of the links: a number for all links, or shape (N,). Shape (N, N) is a
             covariance of the links, with variances on its diagonal. Text such as ``"5 %"`` is relative to each link's datum;
@@ -495,7 +499,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         ------
         ValueError
             If a deviation is negative or not finite, has another shape, or a covariance is not symmetric; if the system has no
-            such datum, or was given by another; if a chain is held at both ends.
+            such datum, or was given by another; if a path is unknown, or two data are the same number; if a chain is held at
+            both ends.
 
         Notes
         -----
@@ -513,12 +518,18 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         >>> rig = rc.Rig(rc.Chain(mass=1.0, length=1.0), support=rc.Support(stiffness=30.0))
         >>> rc.modes(rig, 1).uncertainty(stiffness="10 %").angular_speed.round(4)
         array([0.0335])
+
+        By the paths of the data:
+
+        >>> crane = rc.Chain(mass=[2500, 400], length=[6, 24], names=["load", "hook block"])
+        >>> rc.modes(crane).uncertainty({"links[load].mass": "5 %", "links[hook block].length": "0.5 m"}).largest
+        ('links[hook block].length', 'links[load].mass')
         """
         from .sensitivity import uncertainty_of_modes
 
         _refuse_pins(self, "uncertainty")
         given = {name: value for name, value in locals().items() if name in _DEVIATIONS and value is not None}
-        found: Uncertainty = uncertainty_of_modes(self, given)
+        found: Uncertainty = uncertainty_of_modes(self, given, {} if data is None else data)
         return found
 
     def along(self, arc_length: ArrayLike) -> Floats:
@@ -637,7 +648,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
             lines.append("the trolley rolls freely: the system also moves as a whole, at speed 0, which is no mode of the list")
         if self.has_momentum:
             lines.append("negative speeds: backward, against wheels whose momentum is positive")
-        slack = [f"links[{k}] goes slack at {at:.6g} rad/s" for k, at in zip(self.slack_link, self.slack_speed, strict=True)]
+        links = self.system._link_numbers[self.slack_link] if len(self.slack_link) else ()
+        slack = [f"links[{k}] goes slack at {at:.6g} rad/s" for k, at in zip(links, self.slack_speed, strict=True)]
         lines += slack if len(slack) <= 5 else [*slack[:4], f"{len(slack) - 4} more go slack: slack_link, slack_speed"]
         if others := self.other_available:
             lines.append(f"{others:,} solution{' is not a steady motion' if others == 1 else 's are not steady motions'}: other")

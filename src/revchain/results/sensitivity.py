@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
@@ -11,12 +11,14 @@ import numpy as np
 
 from .. import _core
 from ..systems.chain import like
-from ..systems.numbers import Floats, Whole, floats, refuse_where, shown
+from ..systems.numbers import Floats, Whole, floats, real, refuse_where, shown
+from ..systems.paths import link_in_path
 from ..systems.units import unpacked
 from .base import Field, Result, UnavailableError
 from .sheet import Column, Sheet
 
 if TYPE_CHECKING:
+    from ..systems.datum import Datum
     from ..systems.rig import Rig
     from .modes import Modes
 
@@ -147,7 +149,7 @@ class Sensitivity(Result):
             if isinstance(value, Sensitivity):
                 columns += _own(name, value, len(self))
             elif value.ndim == 2:
-                columns.append(Column(name, value, f"{name} of links[0]", axes=("link",), shown=value[:, 0]))
+                columns.append(Column(name, value, f"{name} of the lowest link", axes=("link",), shown=value[:, 0]))
             else:
                 columns.append(Column(name, value, name))
         return Sheet(self.row, f"Derivatives of {self.of}; of what there is for each link, the lowest is shown", columns)
@@ -172,7 +174,7 @@ class Uncertainty(Result, row="mode", title="Standard deviations"):
     >>> import revchain as rc
     >>> u = rc.modes(rc.Chain(mass=[1.0, 3.0], length=1.0)).uncertainty(mass=0.1, length_in_proportion=0.002)
     >>> u.largest
-    (('mass', 0), ('mass', 0))
+    ('links[0].mass', 'links[0].mass')
     >>> m = rc.modes(rc.Chain(weight=1.0, length=2.4525), gravity=9.81)
     >>> m.uncertainty(length_in_proportion=0.024525).angular_speed.round(12)
     array([0.01])
@@ -208,24 +210,17 @@ class Uncertainty(Result, row="mode", title="Standard deviations"):
         "Part of each variance that comes from each datum, in the form of a `Sensitivity`; the parts of a mode add up to 1. "
         "With a covariance a part may be negative."
     )
-    largest: Field[tuple[tuple[str, int], ...]] = Field(
-        "For each mode the datum that contributes most, and its link, counted from 0 (0 for a datum that is not of a link).",
+    largest: Field[tuple[str, ...]] = Field(
+        "For each mode the path of the datum that contributes most, such as ``'links[load].mass'``; empty if the mode is "
+        "exact. `tune` and `fit` accept these paths.",
     )
     _largest_part: Field[list[str]] = Field(
-        "`largest` in words.",
-        lambda u: [u._most(row) for row in range(len(u.largest))],
+        "`largest`, or that there is nothing.",
+        lambda u: [path or "nothing" for path in u.largest],
         heading="largest part from",
         column="largest",
+        left=True,
     )
-    names: Field[tuple[str, ...] | None] = Field("Names of the links; None if no names were given.")
-
-    def _most(self, row: int) -> str:
-        datum, link = self.largest[row]
-        if not self.relative[row]:
-            return "nothing"
-        if self.share[datum].ndim == 1:
-            return {"stiffness": "stiffness of the support", "support_mass": "mass of the support"}.get(datum, datum)
-        return f"{datum} of {self.names[link] if self.names else f'links[{link}]'}"
 
 
 def by_datum(of: str, modes: Any, value: dict[str, Any], **more: Any) -> Sensitivity:
@@ -278,8 +273,8 @@ def rig_derivatives(rig: Rig, speeds: Any, shapes: Any, gravity: float) -> dict[
     return {name: found[name] for name in (*DATA, *OF_RIGS)}
 
 
-def uncertainty_of_modes(modes: Modes, given: dict[str, Any]) -> Uncertainty:
-    """See `Modes.uncertainty`; `given` has the arguments that were given."""
+def uncertainty_of_modes(modes: Modes, given: dict[str, Any], paths: Mapping[str, Any]) -> Uncertainty:
+    """See `Modes.uncertainty`; `given` has the deviations by keyword, `paths` those by path."""
     caller, system, kind = "revchain.Modes.uncertainty", modes.system, modes.system._kind
     if kind == "held chain":
         raise ValueError(
@@ -298,6 +293,11 @@ def uncertainty_of_modes(modes: Modes, given: dict[str, Any]) -> Uncertainty:
         each = np.nan_to_num(rates if rates.ndim == 2 else rates[:, None])
         part = each * (each @ spread) if spread.ndim == 2 else (each * spread) ** 2
         parts[name] = part if rates.ndim == 2 else part[:, 0]
+    by_path = _by_path(caller, modes, paths, given)
+    for datum, spread_of in by_path.values():
+        name, factor = _rate(datum)
+        rates = np.nan_to_num(sensitivity[name])
+        parts[datum.said] = ((rates @ factor if rates.ndim == 2 else rates * factor) * spread_of) ** 2
     table = np.column_stack([*parts.values()])
     variance = np.maximum(table.sum(axis=1), 0.0)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -310,14 +310,75 @@ def uncertainty_of_modes(modes: Modes, given: dict[str, Any]) -> Uncertainty:
         None,
         number=modes.number,
         direction=modes.direction if kind == "rig" else None,
-        names=_links(system).names if kind in ("chain", "rig") else None,
         conical_height=relative * height,
         relative=relative,
         angular_speed=0.5 * relative * speed,
         period=0.5 * relative * np.asarray(modes.period, np.float64),
         share=by_datum("part of the variance", modes, share),
-        largest=tuple(places[k] for k in np.abs(table).argmax(axis=1)),
+        largest=tuple(_largest(system, by_path, places, row) for row in np.abs(table)),
     )
+
+
+def _rate(datum: Datum) -> tuple[str, Any]:
+    """Name of the derivative by a datum, and its factor for each link."""
+    return datum.rate or (datum.path.replace("weight", "mass"), 1.0)
+
+
+def _largest(system: Any, paths: Mapping[str, Any], places: list[tuple[str, int]], parts: Floats) -> str:
+    """The path of the datum with the largest part of a variance; empty if all are 0."""
+    name, link = places[most := int(parts.argmax())]
+    return "" if not parts[most] else name if name in paths else _path(system, name, link)
+
+
+def _by_path(
+    caller: str, modes: Modes, paths: Mapping[str, Any], given: dict[str, Any]
+) -> dict[str, tuple[Datum, float]]:
+    """The data of a dictionary by path, with their standard deviations."""
+    from ..systems.datum import datum_at
+
+    if not isinstance(paths, Mapping):
+        raise ValueError(f'{caller}: data must be a dictionary such as {{"links[load].mass": "5 %"}}, got {shown(paths)}')
+    system: Any = modes.system
+    deviations: dict[str, tuple[Datum, float]] = {}
+    known: dict[str, str] = {}
+    for path, value in paths.items():
+        datum = datum_at(caller, system, path, modes.gravity, "data")
+        if datum.path in known:
+            both = f'"{known[datum.path]}" and "{datum.said}"'
+            raise ValueError(f"{caller}: {both} are the same number; leave one of them out")
+        known[datum.path] = datum.said
+        name, _ = _rate(datum)
+        if datum.rate is None and not system._is_cord:
+            why = "the speeds have no derivative by it; change the datum and call modes again"
+            raise ValueError(f"{caller}: {datum.said}: {why}, got {shown(value)}")
+        if twice := {name, datum.said} & given.keys():
+            raise ValueError(f'{caller}: give either {min(twice)} or "{datum.said}", got both')
+        if not np.isfinite(datum.present):
+            raise ValueError(f"{caller}: {datum.said} is for a support on a spring, and this one is firm; leave it out")
+        size = unpacked(value)
+        if isinstance(size, str) and size.strip().endswith("%"):
+            size = _part(f"{caller}: {datum.said}", size) * abs(datum.present)
+        size = real(caller, f"{datum.quantity} (deviation of {datum.said})", size)
+        if not 0 <= size < np.inf:
+            raise ValueError(f"{caller}: {datum.said}: the deviation must be finite and not negative, got {shown(value)}")
+        deviations[datum.said] = datum, size
+    return deviations
+
+
+_OF_FITTINGS = {
+    "momentum": "flywheels.momentum", "spin": "flywheels.spin", "displaced_mass": "displaced.mass",
+    "added_mass": "displaced.added_mass", "stiffness": "support.stiffness", "support_mass": "support.mass",
+}  # fmt: skip
+
+
+def _path(system: Any, name: str, link: int) -> str:
+    """The path of a datum of a link, of a fitting or of a cord, from its name in a `Sensitivity`."""
+    where, _, name = _OF_FITTINGS.get(name, name if system._is_cord else f"links.{name}").rpartition(".")
+    name = name if system.by_mass else name.replace("mass", "weight")
+    if where in ("", "support"):
+        return f"{where}.{name}".lstrip(".")
+    number = link if system._listed.step == 1 else system._base.size - 1 - link
+    return f"{link_in_path(where, number, system._listed_names)}.{name}"
 
 
 def _checked(caller: str, modes: Modes, given: dict[str, Any], known: tuple[str, ...]) -> dict[str, Any]:

@@ -491,7 +491,7 @@ class SteadyShape(Result, Moving, row="link", title="Steady shape of {_waves}{_a
         array([0.5       , 0.08366581])
         """
         made = _core.transferred_to_axis(self._chain("transferred_to_axis"), self._found())
-        return Chain._wrap(made, self.system.by_mass, self.system.names)
+        return Chain._wrap(made, self.system.by_mass, self.system.names, self.system.order)
 
     @property
     def _per(self) -> float:
@@ -547,7 +547,7 @@ class SteadyShape(Result, Moving, row="link", title="Steady shape of {_waves}{_a
         elif held:
             rows = Column("pin", np.arange(len(self.offset)), "pin")
         else:  # a row for each link with its lower pin; the support is a fact
-            rows = Column("link", np.arange(len(self.inclination)), "link", shown=getattr(self.system, "names", None))
+            rows = Column("link", self.system._link_numbers, "link", shown=getattr(self.system, "names", None))
             headings |= {"inclination": "inclination (°)", "offset": "lower pin: from axis (m)"}
             headings |= {"height": "above support (m)"}
         columns = [rows]

@@ -47,11 +47,13 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     "explain": explain,
 }
 WINDOWS = ("angular_speed", "conical_height")
+MOVES = tuple(f"support_{kind}" for kind in KINDS)
 SPEEDS = {  # by question: the two keys of which one is given
     "shapes": WINDOWS,
     "response": WINDOWS,
     "branches": ("max_angular_speed", "min_conical_height"),
 }
+_YIELDS = "needs a support that yields; a firm one does not move: write [support] with mass or stiffness"
 _ALONE = (Chain, "a chain that hangs from a firm point, with nothing else")
 _HANGS = (Chain | Rig, "a chain that hangs")
 _ONLY: dict[tuple[str, str], tuple[Any, str]] = {
@@ -60,6 +62,7 @@ _ONLY: dict[tuple[str, str], tuple[Any, str]] = {
     ("shapes", "direction"): _HANGS,
     ("branches", "direction"): _HANGS,
     ("shapes", "hanging_only"): _HANGS,
+    ("branches", "hanging_only"): _HANGS,
     ("shapes", "max_half_waves"): (Held, "a chain held at both ends"),
 }
 
@@ -82,7 +85,8 @@ def arguments(question: str, table: Table, system: System | None, numbers: Numbe
     speeds = SPEEDS.get(question, ())
     there = [name for name in speeds if getattr(table, name) is not UNSET]
     if speeds and len(there) != 1:
-        numbers.refuse("", f"give {speeds[0]} or {speeds[1]}" + (", not both" if there else ": at which speed"))
+        one, other = map(numbers.named, speeds)
+        numbers.refuse("", f"give {one} or {other}" + (", not both" if there else ": at which speed"))
         signs = {name: sign for name, sign in signs.items() if name not in speeds}
     given: Given = {}
     for field in fields_of(type(table)):
@@ -92,7 +96,9 @@ def arguments(question: str, table: Table, system: System | None, numbers: Numbe
         systems, reason = _ONLY.get((question, field.name), (object, ""))
         if system is not None and not isinstance(system, systems):
             numbers.refuse(field.name, f"is for {reason}, got {written(value)}")
-        given[field.name] = numbers.values(field.name, value, signs[field.name]) if field.name in signs else value
+        given[field.name] = value
+        if field.name in signs:
+            given[field.name] = numbers.values(field.name, value, signs[field.name], "Spread" in str(field.type))
     if question in _CHECKS:
         _CHECKS[question](table, given, system, numbers)
     return given
@@ -103,23 +109,26 @@ def _modes(table: Table, given: Given, system: Whirling | None, numbers: Numbers
     windows = [name for name in WINDOWS if name in given]
     others = [name for name in ("count", "first", *windows[1:]) if name in given]
     if windows and others:
-        numbers.refuse(windows[0], f"does not go with {others[0]}")
+        numbers.refuse(windows[0], f"does not go with {numbers.named(others[0])}")
     for name in windows:
         low, high = given[name]
         if low >= high:
-            numbers.refuse(name, f"its low end must lie below its high end, got {written(getattr(table, name))}")
+            got = f"{low:g} to {high:g}" if numbers.options else written(getattr(table, name))
+            numbers.refuse(name, f"its low end must lie below its high end, got {got}")
     available = None if system is None else system.mode_count
     first, count = given.get("first", 1), given.get("count", 1)
-    if available is not None and first > available:
+    if available == 0:
+        numbers.refuse("", "has no answer: one link held at both ends has no pin that could move; give it two links or more")
+    elif available is not None and first > available:
         numbers.refuse("first", f"must be at most {available}, got {first}")
     elif available is not None and count != "all" and count > available - first + 1:
-        after = f" from number {first} on" if first > 1 else ""
-        numbers.refuse("count", f"must be at most {available - first + 1}{after}, got {count}")
+        given["count"] = available - first + 1  # all there are; `remark` says so
     method = given.get("method", "bisection")
     if method not in METHODS:
         numbers.refuse("method", choice(list(METHODS), False, method))
     if "precision" in given and method != "bisection":
-        numbers.refuse("precision", f'method = "{method}" goes with "double" only')
+        its = numbers.named("method", f'"{method}"')
+        numbers.refuse("precision", f'{its} goes with "double" only')
 
 
 def _explain(table: Table, given: Given, system: Whirling | None, numbers: Numbers) -> None:
@@ -134,7 +143,10 @@ def _response(table: Table, given: Given, system: Whirling | None, numbers: Numb
     """Refuse a speed of 0, and more than one drive."""
     drives = [name for name in ("support_radius", "acceleration", "force") if name in given]
     if len(drives) > 1:
-        numbers.refuse(drives[1], f"does not go with {drives[0]}")
+        numbers.refuse(drives[1], f"does not go with {numbers.named(drives[0])}")
+    support = None if system is None else system._support
+    if "force" in given and system is not None and not (support is not None and support._yields):
+        numbers.refuse("force", _YIELDS)
     for name in WINDOWS:
         if not np.all(given.get(name, 1.0)):
             numbers.refuse(name, "must not be 0")
@@ -142,35 +154,65 @@ def _response(table: Table, given: Given, system: Whirling | None, numbers: Numb
 
 def _swing(table: Table, given: Given, system: Whirling | None, numbers: Numbers) -> None:
     """Check that something moves and that there is a number for each pin that does; make the motion of the support."""
-    kinds = {f"support_{kind}": kind for kind in KINDS}
-    moved = {kinds[name]: given.pop(name) for name in kinds if name in given}
+    moved = {name: given.pop(name) for name in MOVES if name in given}
     time = given.pop("support_time", None)
-    if time is not None or moved:
-        try:
-            given["support"] = SupportMotion([] if time is None else time, **moved)
-        except ValueError as error:
-            numbers.refuse("support_time", str(error).partition(": ")[2])
-            return
-    elif "offset" not in given and "velocity" not in given:
-        numbers.refuse("offset", "give offset, velocity or support_time: nothing would move")
+    if time is None and not moved:
+        if "offset" not in given and "velocity" not in given:
+            what = f"{numbers.named('offset')}, {numbers.named('velocity')} or {numbers.named('support_time')}"
+            numbers.refuse("", f"give {what}: nothing would move")
+    elif (motion := _support_motion(time, moved, numbers)) is not None:
+        given["support"] = motion
     if system is None or system._is_cord or system._is_held:
         return
     support = system._support
     yields = support is not None and support._yields
-    if yields and support is not None and support.stiffness == 0 and moved and "force" not in moved:
+    if "support_force" in moved and not yields:
+        numbers.refuse("support_force", _YIELDS)
+    if yields and support is not None and support.stiffness == 0 and moved and "support_force" not in moved:
         yields = False  # the trolley is moved itself
     moving = system.size + yields
+    order = "free end first" if system._listed.step == 1 else "support first"
     for name in ("offset", "velocity"):
         if name in given and len(given[name]) != moving:
             each = f"must have a number for each of the {moving} pins that move"
-            numbers.refuse(name, f"{each}, free end first, got {len(given[name])}")
+            numbers.refuse(name, f"{each}, {order}, got {len(given[name])}")
+        elif name in given:
+            given[name] = given[name][system._listed]
+
+
+def _support_motion(time: Any, moved: Given, numbers: Numbers) -> SupportMotion | None:
+    """The motion of the support; None if it was refused, which is noted."""
+    if len(moved) != 1 or time is None:
+        first, *others = [*moved, "support_time"]
+        if not moved:
+            *some, last = map(numbers.named, MOVES)
+            numbers.refuse(first, f"needs one of {', '.join(some)} and {last} beside it")
+        elif len(moved) > 1:
+            numbers.refuse(others[0], f"does not go with {numbers.named(first)}")
+        else:
+            numbers.refuse(first, f"needs {numbers.named('support_time')} beside it, the time of each of its values")
+        return None
+    [(name, values)] = moved.items()
+    if min(sizes := (np.size(time), np.size(values))) < 2 or sizes[0] != sizes[1]:
+        beside = f"must have as many values as {numbers.named('support_time')}, two or more"
+        numbers.refuse(name, f"{beside}, got {sizes[1]} beside {sizes[0]}")
+        return None
+    if np.isnan(time).any() or np.isnan(values).any():
+        return None  # noted already
+    try:
+        return SupportMotion(time, **{name.removeprefix("support_"): values})
+    except ValueError as error:
+        reason = str(error).partition(": ")[2].removeprefix("time ")
+        numbers.refuse("support_time", reason.replace("; time, got", ", got"))
+        return None
 
 
 def _campbell(table: AskCampbell, given: Given, system: Whirling | None, numbers: Numbers) -> None:
     """Check that there are ascending speeds."""
     speeds = given.get("angular_speed")
     if speeds is None:
-        numbers.refuse("angular_speed", 'is missing: write {from = "1 rpm", to = "20 rpm", steps = 39}')
+        example = '"1 rpm to 20 rpm in 39"' if numbers.options else '{from = "1 rpm", to = "20 rpm", steps = 39}'
+        numbers.refuse("angular_speed", f"is missing: write {numbers.named('angular_speed', example)}")
     elif np.size(speeds) < 2 or not (np.isnan(speeds).any() or (np.diff(speeds) > 0).all()):
         given_as_range = isinstance(table.angular_speed, Spread)
         got = f"{speeds[0]:g} to {speeds[-1]:g}" if given_as_range else written(table.angular_speed)
@@ -182,7 +224,11 @@ def _campbell(table: AskCampbell, given: Given, system: Whirling | None, numbers
 def _drag(table: AskDrag, given: Given, system: Whirling | None, numbers: Numbers) -> None:
     """Check that there is a speed and an arm."""
     if table.angular_speed is UNSET:
-        numbers.refuse("angular_speed", 'is missing: write angular_speed = "12 rpm"')
+        example = numbers.named("angular_speed", '"12 rpm"')
+        numbers.refuse("angular_speed", f"is missing: write {example}")
+    elif given["angular_speed"] == 0:
+        why = "at rest air has no effect; positive and negative speeds turn either way"
+        numbers.refuse("angular_speed", f"must not be 0: {why}")
     if system is not None and not (isinstance(system, Rig) and system.support.radius):
         why = "needs a support off the axis, which carries the chain round"
         numbers.refuse("", f'{why}: write [support] and radius = "2 m"')

@@ -158,6 +158,8 @@ def _read_toml_error(message: str, lines: list[str]) -> tuple[int, int, str]:
         return len(lines), len(lines[-1]) + 1, f"{reason} (the file ends)"
     if (found[2], found[3], lines[0][:1]) == ("1", "1", "{"):
         reason = "is JSON: give the file a name that ends in .json"
+    if (found[2], lines[0].lstrip()[:1]) == ("1", "<"):
+        reason = "is XML, not a scene: revchain.from_mjcf and revchain.from_urdf read models of multibody engines"
     reason = re.sub(r"^Cannot (overwrite a value|declare \(.*\) twice|redefine.*)$", "is there twice", reason)
     if reason == "is there twice" and re.match(r"\s*\[\[?links\]", lines[int(found[2]) - 1]):
         reason = LINKS_TWICE
@@ -202,7 +204,7 @@ _REPAIRS = tuple(  # what stands before what is wrong, that itself, what to writ
         (r"^\s*", r"//(?P<a>.*)", "#{a}", "a comment begins with #"),
     )
 )
-_PATHS = re.compile(r"(\s*\[?(?:vary\.)?)(\w+\[\d+\](?:\.\w+(?:\[\d+\])?)*)(\s*=.*|\]\s*(?:#.*)?)")
+_PATHS = re.compile(r"(\s*\[?(?:vary\.)?)(\w+\[[^\[\]=#\"']+\](?:\.\w+(?:\[\d+\])?)*)(\s*=.*|\]\s*(?:#.*)?)")
 
 
 def _repaired(line: str) -> tuple[str, int, str] | None:
@@ -360,14 +362,16 @@ def _reason(sentence: str, key: str, raw: Any, path: str, annotation: Any) -> st
     parts = list(_parts_of(annotation))
     words_allowed = [str(word) for part in parts if get_origin(part) is Literal for word in get_args(part)]
     if words_allowed and value in words_allowed:
-        return f"must be a list: write [{written(value)}]"
+        is_list = any(get_origin(part) is list for part in parts)
+        as_number = f"must be a number{got}; write {value} without quotes"
+        return f"must be a list: write [{written(value)}]" if is_list else as_number
     if words_allowed:
         return choice(words_allowed, int in parts, value)
     if "array` of length" in sentence:
         return f"must be a pair {'[mean, deviation]' if key.endswith('normal') else '[low, high]'}{got}"
     structs = _table_in(annotation)[0] is not None
     lists = any(get_origin(part) in (list, tuple) for part in parts)
-    if not isinstance(value, list) and lists and structs and not path:
+    if not isinstance(value, list) and _table_in(annotation)[1] is list and not path:
         if isinstance(value, dict):
             return f"is a list of tables: write [[{key}]], with two brackets, above each of them"
         where = "arc_length" if key == "cord.masses" else "length"
@@ -390,7 +394,9 @@ def _reason(sentence: str, key: str, raw: Any, path: str, annotation: Any) -> st
     if any(get_origin(part) is tuple for part in parts) and not path:
         return f'must be a pair [low, high]{got}; either end may be 0 or inf'
     if lists and not path:
-        return f"must be a {'number or a ' if _is_number(annotation) else ''}list of numbers{got}"
+        one = isinstance(value, int | float | str) and not (isinstance(value, bool) or _is_number(annotation))
+        write = f": write [{written(value)}]" if one else ""
+        return f"must be a {'number or a ' if _is_number(annotation) else ''}list of numbers{got}{write}"
     names = {"object": "a table", "array": "a list", "float": "a number", "int": "a whole number", "str": "text"}
     expected = re.fullmatch(r"Expected `(\w+)(?: \| null)?`.*", sentence)
     return f"must be {names.get(expected[1], 'true or false') if expected else 'something else'}{got}"
@@ -465,7 +471,7 @@ def without_consequences(problems: Iterable[Problem]) -> list[Problem]:
             continue
         remaining.append(problem)
         for mark in re.finditer(r"[.\[]", key):
-            inside[key[: mark.start()]].append((key.rpartition(".")[2], problem.reason))
+            inside[key[: mark.start()]].append((key.rpartition(".")[2].partition("[")[0], problem.reason))
         if key and ": line " not in problem.reason:  # what is wrong with another file has one key
             known.add(key)
     return remaining

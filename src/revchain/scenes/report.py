@@ -86,6 +86,8 @@ def further_sheets(found: Any) -> list[Sheet]:
         part = getattr(found, name, None)
         if part is not None and (name != "other" or len(part)):
             sheets.append(part._sheet())
+    if getattr(found, "_stability", False):
+        sheets.append(found.stability_windows()._sheet(brief=True))
     if isinstance(found, Response) and found.angular_speed.size == 1:
         sheets.append(_pins(found))
     return sheets
@@ -132,7 +134,7 @@ def shortfall(found: Any) -> str:
         best = found.chosen
         return f"no method keeps the tolerance; the best bound is {best.error_bound:.1e}" if best else "no method applies"
     if isinstance(found, Modes):
-        reached = f": asked {found.rtol:g}, reached {found.error_bound.max():.1e}" if found.rtol else ""
+        reached = f": asked {found.rtol:g}, reached {found.error_bound.max():.1e}" if found.rtol is not None else ""
         return "the tolerance is not met" + reached
     return "not proved to be all there is"
 

@@ -14,10 +14,11 @@ from .. import _core
 from ..results.files import naming, written_aside
 from ..systems.numbers import text
 from . import parse
-from .answer import SPEEDS, answered, arguments
+from .answer import MOVES, SPEEDS, answered, arguments
 from .error import Problem, SceneError
+from .positions import positions_in
 from .system import Numbers, System, air_drag, problem_of, system_of
-from .tables import BESIDE, QUESTIONS, SYSTEMS, TABLES, AskExplain, AskModes, Table, Tables
+from .tables import BESIDE, QUESTIONS, SYSTEMS, TABLES, AskExplain, AskModes, Table, Tables, fields_of
 
 if TYPE_CHECKING:
     from ..closed_forms.governor import GovernorEquilibria, SleeveGovernor
@@ -34,7 +35,6 @@ Answer = TypeVar("Answer")
 
 EXCLUSIVE = (*SPEEDS["shapes"], *SPEEDS["branches"], "count", "first")
 DRIVES = ("support_radius", "acceleration", "force")
-MOVES = ("support_velocity", "support_acceleration", "support_offset", "support_force")
 # By the id of each living scene. A struct with `dict=True` could hold this, but msgspec before 0.21 crashes with it on
 # Python 3.13; a frozen struct with lists has no hash, so that it is no key of a WeakKeyDictionary.
 _MADE: dict[int, tuple["weakref.ref[Scene]", dict[str, Any]]] = {}
@@ -319,20 +319,71 @@ class Scene(Tables, frozen=True, weakref=True):
 
     def _file(self) -> tuple[str, str]:
         """The name and the text of the file of the scene; of one from a dictionary, its data as JSON."""
-        name, text = self._made().get("file", ("scene.json", ""))
-        return name, text or json.format(json.encode(self.to_dict()), indent=2).decode() + "\n"
+        made = self._made()
+        return os.path.basename(made.get("file", "scene.json")), made.get("text") or json.format(json.encode(self.to_dict()), indent=2).decode() + "\n"
 
-    def _answer(self, question: str, changed: dict[str, Any], progress: _core.Progress | None = None) -> Any:
-        """The answer to one question; `changed` are keys of its table with other values than those of the scene."""
+    def _answer(
+        self, question: str, changed: dict[str, Any], progress: _core.Progress | None = None, *, options: bool = False
+    ) -> Any:
+        """The answer to one question; `changed` are keys of its table with other values than those of the scene.
+
+        With `options`, errors name keys as options of a command.
+        """
         (system, gravity), given = self._built(), None if changed else self._made().get(question)
-        if given is None:
-            numbers = Numbers("scene")
-            given = self._arguments(question, self._table(question, changed), system, numbers)
-            numbers.done()
         try:
+            if given is None:
+                numbers = Numbers("scene", options=options)
+                given = self._arguments(question, self._table(question, changed), system, numbers)
+                numbers.done()
             return answered(question, system, given, gravity, progress)
         except ValueError as error:
-            raise SceneError("scene", problems=[problem_of(error, "", self._bodies())]) from None
+            if not isinstance(error, SceneError):
+                error = SceneError("scene", problems=[self._problem_of(error, question, self._table(question, changed))])
+            raise self._in_file(error, question, changed) from None
+
+    def _problem_of(self, error: ValueError, question: str, table: Table) -> Problem:
+        """An error of the function of a question as a problem of the key of which it speaks, or of the question's table."""
+        found = problem_of(error, "", self._bodies())
+        if found.key:
+            return found
+        for words, key in self._without_answer().items():
+            if words in found.reason:
+                return found._replace(key=key)
+        fields = [each for each in fields_of(type(table)) if getattr(table, each.name) not in (UNSET, each.default)]
+        given = [each.encode_name for each in fields]
+        for key in sorted(given, key=len, reverse=True):
+            if said := re.match(rf"{key}(\[\d+\])? (?=must|needs|has|is )", found.reason):
+                return Problem(0, 0, f"ask.{question}.{key}{said[1] or ''}", found.reason[said.end() :])
+        named = next((key for key in given if re.search(rf"\b{key.replace('_', '[ _]')}\b", found.reason)), "")
+        return found._replace(key=f"ask.{question}.{named}".rstrip("."))
+
+    def _without_answer(self) -> dict[str, str]:
+        """By words in the sentence with which a question refuses a rig: the key of the first datum that is the reason."""
+        found = {"a trolley": "support", "carried round": "support.radius", "with dashpots": "support.damping"}
+        found |= {"a fluid that turns": "fluid", "the cord's own": "cord"}
+        for index, link in reversed(self._bodies()):
+            found |= {"linear drag": f"links[{index}].drag"} if link.drag is not UNSET else {}
+            found |= {"springs at pins": f"links[{index}].pin"} if link.pin is not UNSET else {}
+        return found
+
+    def _in_file(self, error: SceneError, question: str, changed: dict[str, Any]) -> SceneError:
+        """The error with line and column of each key in the file of the scene; unchanged if the file is gone."""
+        source = self._made().get("file")
+        if source is None:
+            return error
+        try:
+            position = positions_in(parse.text_of(source), parse.is_json(source))
+        except SceneError:
+            return error
+        of_table = f"ask.{question}"
+
+        def in_file(key: str) -> tuple[int, int]:
+            name = re.split(r"[.\[]", key.removeprefix(f"{of_table}."))[0]
+            asked = getattr(self.ask, question, UNSET) is not UNSET
+            elsewhere = key.startswith(of_table) and (name in changed or not asked)
+            return (0, 0) if elsewhere or not key else position(key)
+
+        return SceneError(source, problems=[Problem(*in_file(each.key), *each[2:]) for each in error.problems])
 
     def _arguments(self, question: str, table: Table, system: System | None, numbers: Numbers) -> dict[str, Any]:
         """The arguments of a question, from its table and, of drag, from the links."""
@@ -435,7 +486,7 @@ def read(path: str | os.PathLike[str], changed: dict[str, Any]) -> Scene:
     """Read the scene of a file, with other values of some of its keys."""
     with parse.opened(path) as (raw, problems, text):
         scene = Scene._read(raw | changed if isinstance(raw, dict) else raw, os.fspath(path), problems)
-    scene._made()["file"] = os.path.basename(path), text
+    _MADE[id(scene)][1].update(file=os.fspath(path), text=text)
     return scene
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import accumulate
 from typing import Any
 
@@ -13,7 +13,7 @@ import numpy as np
 from msgspec import UNSET, UnsetType, json
 
 from ..closed_forms.governor import SleeveGovernor
-from ..systems.chain import Chain
+from ..systems.chain import Chain, Order
 from ..systems.cord import Cord
 from ..systems.drag import Drag
 from ..systems.held import Held
@@ -24,9 +24,15 @@ from .error import Problem, SceneError
 from .parse import without_consequences, written
 from .tables import MOST_LINKS, SYSTEMS, Link, Links, Spread, Table, Tables, number_fields
 
+MOST = 1e100  # largest number of a scene, in SI units: products of a few numbers stay within the range of double
 Whirling = Chain | Rig | Cord | Held
 System = Whirling | SleeveGovernor
 Given = dict[str, Any]
+
+
+def option(key: str) -> str:
+    """The option of a command that stands for a key of a question."""
+    return f"--{key.replace('_', '-')}"
 
 
 class Numbers:
@@ -36,16 +42,20 @@ class Numbers:
     masses, else they are multiplied by gravity.
     """
 
-    def __init__(self, source: str, table: str = "", *, gravity: float = 1.0, by_mass: bool = True) -> None:
+    def __init__(
+        self, source: str, table: str = "", *, gravity: float = 1.0, by_mass: bool = True, options: bool = False
+    ) -> None:
         self.source = source
         self.table = table
         self.problems: list[Problem] = []
         self.gravity = gravity
         self.by_mass = by_mass
+        self.options = options  # whether a command asks, whose options stand for the keys of its table
 
     def of(self, table: str) -> Numbers:
         """The numbers of a table inside this one; errors are noted together."""
-        inside = Numbers(self.source, f"{self.table}.{table}".lstrip("."), gravity=self.gravity, by_mass=self.by_mass)
+        name = f"{self.table}.{table}".lstrip(".")
+        inside = Numbers(self.source, name, gravity=self.gravity, by_mass=self.by_mass, options=self.options)
         inside.problems = self.problems
         return inside
 
@@ -54,9 +64,23 @@ class Numbers:
         """The key of a weight: ``mass`` or ``weight``."""
         return "mass" if self.by_mass else "weight"
 
+    def named(self, key: str, value: str = "") -> str:
+        """A key as the user writes it, also with a value: the key of a file, or the option of a command."""
+        name = option(key) if self.options else key
+        return name + (f"{' ' if self.options else ' = '}{value}" if value else "")
+
     def refuse(self, key: str, reason: str) -> None:
         """Note an error of a key of this table."""
         self.problems.append(Problem(0, 0, f"{self.table}.{key}".strip("."), reason))
+
+    def refuse_as(self, error: ValueError, names: Iterable[str]) -> None:
+        """Note an error of a function: of the key among `names` with which its sentence begins, or else of this table."""
+        reason = without_function(error)
+        for name in names:
+            for words in (f"{name} ", f"{name} ".replace("_", " ")):
+                if reason.startswith(words):
+                    return self.refuse(name, reason.removeprefix(words))
+        self.refuse("", reason)
 
     def done(self) -> None:
         """Raise a SceneError if an error was noted."""
@@ -79,13 +103,18 @@ class Numbers:
             must = "be positive"
         elif sign == "not negative" and not number >= 0:
             must = "not be negative"
+        elif finite and number and not 1 / MOST <= abs(number) <= MOST:
+            must = f"be {'' if sign == 'positive' else '0 or '}from {1 / MOST:g} to {MOST:g} in size, in SI units"
         else:
             return number
         self.refuse(key, f"must {must}, got {written(given)}")
         return math.nan
 
-    def values(self, key: str, given: Any, sign: str) -> Any:
-        """The value of a key that is named as its quantity: a number, a pair, or an array from a list or a range."""
+    def values(self, key: str, given: Any, sign: str, ranges: bool = True) -> Any:
+        """The value of a key that is named as its quantity: a number, a pair, or an array from a list or a range.
+
+        `ranges` says whether a range is allowed.
+        """
         if isinstance(given, tuple):
             return tuple([self.value(f"{key}[{k}]", end, key, sign, finite=False) for k, end in enumerate(given)])
         if isinstance(given, list):
@@ -100,7 +129,8 @@ class Numbers:
                 return math.nan
             return (np.geomspace if given.log else np.linspace)(first, last, given.steps)
         if isinstance(given, str) and (words := re.fullmatch(r"(\S.*?)\s+to\s+(.+)", given)):
-            self.refuse(key, f'a range is written {{from = "{words[1]}", to = "{words[2]}"}}, got "{given}"')
+            range_ = f'a range is written {{from = "{words[1]}", to = "{words[2]}"}}'
+            self.refuse(key, f'{range_ if ranges else "must be one number, not a range"}, got "{given}"')
             return math.nan
         return self.value(key, given, key, sign)
 
@@ -165,7 +195,7 @@ def system_of(scene: Tables, source: str) -> tuple[System | None, float]:
         numbers.done()
         return governor, numbers.gravity
     links = scene._links()
-    made = _chain_of_links(links, numbers) if links else _whole(getattr(scene, given[0]), numbers.of(given[0]))
+    made = _chain_of_links(links, scene.order, numbers) if links else _whole(getattr(scene, given[0]), numbers.of(given[0]))
     system: Whirling | None = made
     if scene.is_rigged and (scene.held is not UNSET or scene.cord is not UNSET):
         name = "cord" if scene.held is UNSET else "held"
@@ -190,13 +220,7 @@ def _governor(scene: Tables, table: tables.Governor, numbers: Numbers) -> Sleeve
     try:
         return SleeveGovernor(**given, balls=table.balls, gravity=numbers.gravity)
     except ValueError as error:
-        reason = without_function(error)
-        for name in given:
-            for words in (f"{name} ", f"{name} ".replace("_", " ")):
-                if reason.startswith(words):
-                    numbers.of("governor").refuse(name, reason.removeprefix(words))
-                    return None
-        numbers.refuse("governor", reason)
+        numbers.of("governor").refuse_as(error, given)
         return None
 
 
@@ -205,7 +229,12 @@ def _whole(table: tables.Whole, numbers: Numbers) -> Chain | Cord | None:
     given = numbers.read(table)
     particles: list[Given] = []
     if isinstance(table, tables.Cord) and table.masses is not UNSET:
-        particles = [numbers.of(f"masses[{k}]").read(each) for k, each in enumerate(table.masses)]
+        for k, each in enumerate(table.masses):
+            inside = numbers.of(f"masses[{k}]")
+            particles.append(inside.read(each))
+            if particles[-1]["arc_length"] >= given["length"]:
+                end = f"must be below the length of the cord, {given['length']:g}"
+                inside.refuse("arc_length", f"{end}, got {written(each.arc_length)}")
     if numbers.problems or math.isnan(sum(given.values()) + sum(sum(each.values()) for each in particles)):
         return None
     try:
@@ -220,7 +249,7 @@ def _whole(table: tables.Whole, numbers: Numbers) -> Chain | Cord | None:
             chain = (Chain.uniform_rods if table.kind == "rods" else Chain.uniform_plummets)(table.count, **given)
         return chain.with_body(**{numbers.heavy: tip}) if tip else chain
     except ValueError as error:
-        numbers.problems.append(problem_of(error, numbers.table))
+        numbers.refuse_as(error, given)
         return None
 
 
@@ -231,7 +260,7 @@ def _by_place(particles: list[Given], heavy: str) -> dict[float, float]:
     return found
 
 
-def _chain_of_links(links: Links, numbers: Numbers) -> Chain | None:
+def _chain_of_links(links: Links, order: Order, numbers: Numbers) -> Chain | None:
     """The chain that the links make; None if a number is wrong, which is noted already."""
     repeats = [link.repeat for _, link in links]
     if (count := sum(repeats)) > MOST_LINKS:
@@ -250,9 +279,9 @@ def _chain_of_links(links: Links, numbers: Numbers) -> Chain | None:
     given = _columns(bodies, repeats)
     if not given["radius_of_gyration"].any() and np.array_equal(given["centroid"], given["length"]):
         del given["centroid"], given["radius_of_gyration"]
-    names = [link.name for _, link in links for _ in range(link.repeat)] if any(link.name for _, link in links) else []
+    names = [link.name or f"links[{index}]" for index, link in links for _ in range(link.repeat)]
     try:
-        chain = Chain(**given, names=[name or f"links[{k}]" for k, name in enumerate(names)] or None)
+        chain = Chain(**given, names=names if any(link.name for _, link in links) else None)
         firsts = accumulate(repeats[:-1], initial=0)
         from_above = list(zip(firsts, tips, links, strict=True))[::-1]  # so that the numbers of lower pins stay valid
         for first, tip, (_, link) in from_above:
@@ -260,7 +289,7 @@ def _chain_of_links(links: Links, numbers: Numbers) -> Chain | None:
                 chain = chain.with_body(**{numbers.heavy: tip}, pin=first)
             if link.clamped:
                 chain = chain.clamped(first)
-        return chain
+        return chain if order == chain.order else Chain._wrap(chain._compiled, chain.by_mass, chain.names, order)
     except ValueError as error:
         numbers.problems.append(problem_of(error, "links", links))
         return None
@@ -439,6 +468,8 @@ def in_file(sentence: str, links: Links) -> str:
 def problem_of(error: ValueError, key: str, links: Sequence[tuple[int, Link]] = ()) -> Problem:
     """An error of the core as a problem of the file, with the key of the link that it names, or else with `key`."""
     sentence = in_file(without_function(error), list(links))
-    if links and sentence.startswith("links[") and ": " in sentence:
-        key, _, sentence = sentence.partition(": ")
+    sentence = re.sub(r"; links, got \d+$", "", sentence)  # their number says nothing here
+    sentence = re.sub(r"(; (?:its radius is|it has)), got", r"\1", sentence)
+    if links and (said := re.match(r"(links\[\d+\](?: \(\".*?\"\))?): ", sentence)):
+        key, sentence = said[1], sentence[said.end() :]
     return Problem(0, 0, key, sentence)

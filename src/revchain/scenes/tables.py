@@ -187,7 +187,9 @@ class Cord(Whole, frozen=True, kw_only=True):
     tip_radius_of_gyration: Annotated[
         MaybeNotNegative, says("Radius of gyration of the bob about its centre of gravity (m).")
     ] = UNSET
-    masses: Annotated[list[PointMass] | UnsetType, says("Point masses on the cord, beside its own mass.")] = UNSET
+    masses: Annotated[
+        list[PointMass] | UnsetType, says("Point masses on the cord, beside its own mass; those at one place are added.")
+    ] = UNSET
 
     density: Annotated[
         float,
@@ -243,6 +245,7 @@ class Governor(Table, frozen=True):
     highest_inclination: Annotated[MaybeAnySign, says("Inclination of the arms at the upper stop (rad).")] = UNSET
 
 
+SYSTEM_TABLES = (Link, UniformChain, TaperedChain, Cord, Held, Governor, Support)
 DEFAULT_MODES = 10
 
 Pair = tuple[NotNegative, NotNegative]
@@ -267,7 +270,7 @@ class AskModes(Table, frozen=True):
 
     count: Annotated[
         Count | Literal["all"] | UnsetType,
-        says('Number of modes, slowest first, or "all"; if left out 10, or all if there are fewer.'),
+        says('Number of modes, slowest first, or "all"; 10 if left out. If there are fewer, all of them.'),
     ] = UNSET
     first: Annotated[Count | UnsetType, says("Number of the first mode; the slowest mode is 1.")] = UNSET
     angular_speed: Annotated[Pair | UnsetType, says("Window [low, high]: low <= whirl speed < high (rad/s).")] = UNSET
@@ -314,7 +317,7 @@ class AskSwing(Table, frozen=True):
 
     offset: Annotated[
         Listed | UnsetType,
-        says("Offset of each pin at the start (m), free end first, without the support unless it yields."),
+        says("Offset of each pin at the start (m), in the order of the links, without the support unless it yields."),
     ] = UNSET
     velocity: Annotated[
         Listed | UnsetType, says("Velocity of each pin at the start (m/s), in the same order; at rest if left out.")
@@ -342,6 +345,12 @@ class AskBranches(Table, frozen=True):
         MaybePositive, says("Smallest conical height (m); or give max_angular_speed.")
     ] = UNSET
     direction: Annotated[Literal[1, -1], says("Direction of rotation; only flywheels depend on it.")] = 1
+    hanging_only: Annotated[
+        bool, says("Leave out branches with links above their pins (of a rig: inverted otherwise than in the scene).")
+    ] = True
+    stability: Annotated[
+        bool, says("List the windows of stability, and write the verdict at each point, however long it takes.")
+    ] = False
 
 
 class AskCampbell(Table, frozen=True):
@@ -434,7 +443,10 @@ class Tables(Table, frozen=True):
     title: Annotated[str, says("Title in one line.")] = ""
     description: Annotated[str, says("Description of any length.")] = ""
     gravity: Annotated[Positive, says("Acceleration of gravity (m/s^2).")] = STANDARD_GRAVITY
-    order: Annotated[Literal["free end first", "support first"], says("Order of the links.")] = "free end first"
+    order: Annotated[
+        Literal["free end first", "support first"],
+        says("Order of the links; all indices and lists of the scene and its studies count in it."),
+    ] = "free end first"
     links: Annotated[list[Link] | UnsetType, says("The links, in the given order.")] = UNSET
     uniform_chain: Annotated[UniformChain | UnsetType, says("Equal links, instead of links.")] = UNSET
     tapered_chain: Annotated[

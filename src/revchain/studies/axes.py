@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 from ..scenes import parse
 from ..scenes.system import Numbers
 from ..scenes.tables import Link, Table, fields_of, says
-from ..systems.datum import Path, steps
 from ..systems.numbers import Floats
+from ..systems.paths import Path, numbered, steps
 from ..systems.units import SI
 
 MAX_STEPS = 10**7
@@ -87,7 +87,8 @@ class Axis:
 
     def drawn(self, seed: int, count: int) -> Floats:
         """Random numbers of the first `count` points; each depends only on seed, path and the number of its point."""
-        key = zlib.crc32(self.key.encode()), 0
+        indexed = re.sub(r"\.(?=\[)", "", ".".join(f"[{step}]" if isinstance(step, int) else step for step in self.path))
+        key = zlib.crc32(indexed.encode()), 0
         stream = np.random.Generator(np.random.SFC64(np.random.SeedSequence(seed, spawn_key=key)))
         one, two = map(math.log, self.law_numbers) if self.law == "log_uniform" else self.law_numbers
         numbers = stream.normal(one, two, count) if self.law == "normal" else stream.uniform(one, two, count)
@@ -109,10 +110,19 @@ def with_value(data: Any, path: Path, value: Any) -> Any:
     return [*data[:step], with_value(data[step], rest, value), *data[step + 1 :]]
 
 
-def axis_of(key: str, table: Vary, kind: type, numbers: Numbers) -> Axis | None:
-    """The axis of an entry of [vary]; None if it is wrong, which is noted. `kind` is the class of scenes."""
-    known, path = len(numbers.problems), steps(key)
-    if reason := _why_not_varied(key, path):
+def axis_of(key: str, table: Vary, kind: type, names: Sequence[str], numbers: Numbers) -> Axis | None:
+    """The axis of an entry of [vary]; None if it is wrong, which is noted.
+
+    `kind` is the class of scenes; `names` has the names of the links in the order of the file.
+    """
+    known = len(numbers.problems)
+    try:
+        at = numbered(key, names)
+        path = steps(at)
+        reason = _why_not_varied(at, path)
+    except ValueError as error:
+        path, reason = (), str(error)
+    if reason:
         numbers.refuse("", reason)
     name = key if isinstance(table.name, UnsetType) else table.name
     if not name.strip() or "/" in name or name == "." or not name.isprintable():
@@ -126,7 +136,7 @@ def axis_of(key: str, table: Vary, kind: type, numbers: Numbers) -> Axis | None:
         numbers.refuse("log", "goes with from, to and steps")
     if reason or len(laws) != 1:
         return None
-    annotation = parse._annotation_at(kind, key.rpartition("[")[0] if key.endswith("]") else key)
+    annotation = parse._annotation_at(kind, at.rpartition("[")[0] if at.endswith("]") else at)
     parts, values, ends = list(parse._parts_of(annotation)), None, (0.0, 0.0)
     is_whole = int in parts and float not in parts
     if laws[0] in LAWS and (is_whole or not (annotation is None or float in parts)):
@@ -151,7 +161,7 @@ def _why_not_varied(text: str, path: Path) -> str:
     if (last := right.removeprefix("links.")) in [field.name for field in fields_of(Link)]:
         right = f"links[0].{last}"
     if not path:
-        return "is no path into a scene such as links[0].mass"
+        return "is no path into a scene such as links[0].mass or links[load].mass"
     if right != text:
         return f'is no path into a scene: write "{right}"'
     if text in ("title", "description", "schema_version", "held") or path[-1] == "name":

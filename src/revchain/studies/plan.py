@@ -239,7 +239,7 @@ def outputs_of(scene: Scene, largest: Scene, find: tuple[str, ...], max_shapes: 
     if "modes" in find:
         labels["mode"] = _modes_of(scene, largest)
     if not isinstance(ask := scene.ask.campbell, UnsetType) and "campbell" in find:
-        labels["order"] = (1, 2) if isinstance(ask.orders, UnsetType) else tuple(ask.orders)
+        labels["order"] = (1, 2) if isinstance(ask.orders, UnsetType) else tuple(dict.fromkeys(ask.orders))
     for name, dimension in (("response", "speed"), ("campbell", "campbell_speed")):
         if name in find:
             count = _speeds_of(getattr(scene.ask, name))
@@ -267,7 +267,10 @@ def _modes_of(scene: Scene, largest: Scene) -> tuple[int, ...]:
     else:
         there = system.size if system._kind == "chain" else system.mode_count or DEFAULT_MODES
     there = max(there - first + 1, 1)
-    count = ask.count if isinstance(ask.count, int) else there if ask.count == "all" else min(DEFAULT_MODES, there)
+    if isinstance(ask.count, int):
+        count = ask.count if system._is_cord else min(ask.count, there)
+    else:
+        count = there if ask.count == "all" else min(DEFAULT_MODES, there)
     return tuple(range(first, first + count))
 
 

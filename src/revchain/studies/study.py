@@ -36,7 +36,8 @@ class Study(Table, frozen=True):
     scene : Scene or str
         The scene, or the name of its file, in the folder of the study.
     vary : dict of str to Vary
-        Values by path into the scene, such as ``links[0].mass``. Grids are combined, each value with each. Random
+        Values by path into the scene, such as ``links[load].mass`` or ``links[0].mass``, with the name of a link or its
+        index in the order of the file. Grids are combined, each value with each. Random
         numbers are drawn for each point.
     samples : int
         Number of points with random numbers at each point of the grids.
@@ -71,7 +72,8 @@ class Study(Table, frozen=True):
 
     scene: Annotated[Scene | str, says("The scene, or the name of its file in the folder of this one.")]
     vary: Annotated[
-        dict[str, Vary], Meta(description="Values by path into the scene, such as links[0].mass.", min_length=1)
+        dict[str, Vary],
+        Meta(description="Values by path into the scene, such as links[load].mass or links[0].mass.", min_length=1),
     ]
     schema_version: Annotated[Literal[1], says("Version of this format.")] = 1
     title: Annotated[str, says("Title in one line.")] = ""
@@ -205,7 +207,8 @@ class Study(Table, frozen=True):
         numbers.problems += [one for one in known if one not in inside]
         scene, base, find = self.scene, dict[str, Any](), tuple[str, ...]()
         vary = self.vary if isinstance(self.vary, dict) else {}
-        each = [axis_of(key, table, Scene, numbers.of(joined("vary", key))) for key, table in vary.items()]
+        names = [link.name for link in scene.links] if isinstance(scene, Scene) and isinstance(scene.links, list) else []
+        each = [axis_of(key, table, Scene, names, numbers.of(joined("vary", key))) for key, table in vary.items()]
         axes = tuple(axis for axis in each if axis is not None)
         _refuse_twice(axes, numbers)
         random = any(getattr(table, law) is not UNSET for table in vary.values() for law in LAWS)

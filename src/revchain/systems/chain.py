@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Sequence
 from typing import Any, Literal, Never
 
@@ -13,10 +14,10 @@ from numpy.typing import ArrayLike
 from .. import _core
 from .numbers import Floats, integer, link_arrays, mass_or_weight, real, refuse_beyond_memory, shown, word
 from .numbers import count as checked_count
-from .system import System
+from .system import System, plain
 
 Order = Literal["free end first", "support first"]
-_FREE_END = "free end first"
+_FREE_END: Literal["free end first"] = "free end first"
 _ORDERS = (_FREE_END, "support first")
 _GROUPS = 6  # of equal links that are described in words
 
@@ -47,7 +48,8 @@ class Chain(System):
         Radius of gyration about the centre of gravity, m, not negative. With `centroid`, give either
         this or `pendulum_length`.
     order : {"free end first", "support first"}
-        Order of the links in the arrays you give. All results begin at the free end.
+        Order of the links in the arrays you give. Indices in paths (``links[0].mass``) and tables count in this order.
+        Arrays of results, and of flywheels and other fittings, begin at the free end.
     names : sequence of str, optional
         A name for each link, in the order given, for reports and pictures.
 
@@ -82,10 +84,17 @@ class Chain(System):
     array([0.3048, 0.3   ])
     """
 
-    __slots__ = {"_compiled": None, "_names": None, "by_mass": "Whether the chain was given by mass, not by weight."}
+    __slots__ = {
+        "_compiled": None,
+        "_names": None,
+        "by_mass": "Whether the chain was given by mass, not by weight.",
+        "order": "Order in which the links were listed, in which paths and tables count them: ``'free end first'`` or "
+        "``'support first'``.",
+    }
     _compiled: _core.Chain
     _names: tuple[str, ...] | None
     by_mass: bool
+    order: Order
 
     def __init__(
         self,
@@ -119,16 +128,30 @@ class Chain(System):
             columns = {name: column[::-1] if column.ndim else column for name, column in columns.items()}
         if by_mass:
             columns["weight"] = columns.pop("mass")
-        _set(self, "_compiled", checked(caller, by_mass, _core.Chain, **columns))
+        try:
+            _set(self, "_compiled", checked(caller, by_mass, _core.Chain, **columns))
+        except ValueError as error:
+            last = max(column.size for column in columns.values()) - 1
+            if order == _FREE_END:
+                raise
+            raise ValueError(re.sub(r"(?<=links\[)\d+", lambda k: str(last - int(k[0])), str(error))) from None
         _set(self, "by_mass", by_mass)
+        _set(self, "order", order)
         _set(self, "_names", None if names is None else _checked_names(caller, names, self.size, order))
 
     @classmethod
-    def _wrap(cls, compiled: _core.Chain, by_mass: bool = False, names: tuple[str, ...] | None = None) -> Chain:
+    def _wrap(
+        cls,
+        compiled: _core.Chain,
+        by_mass: bool = False,
+        names: tuple[str, ...] | None = None,
+        order: Order = _FREE_END,
+    ) -> Chain:
         chain = cls.__new__(cls)
         _set(chain, "_compiled", compiled)
         _set(chain, "by_mass", by_mass)
         _set(chain, "_names", names)
+        _set(chain, "order", order)
         return chain
 
     @classmethod
@@ -364,8 +387,14 @@ class Chain(System):
         heavy = like(caller, self, mass, weight)
         body = real(caller, "mass" if self.by_mass else "weight", heavy)
         at, radius = integer(caller, "pin", pin), real(caller, "radius_of_gyration", radius_of_gyration)
-        made = checked(caller, self.by_mass, _core.with_weight, compiled(caller, self), body, at, radius)
-        return self._wrap(made, self.by_mass, self._names)
+        try:
+            made = checked(caller, self.by_mass, _core.with_weight, compiled(caller, self), body, at, radius)
+        except ValueError as error:
+            if radius or "radius of gyration" not in str(error):
+                raise
+            name = "mass" if self.by_mass else "weight"
+            raise ValueError(f"{caller}: {name} is too far from that of the link above pin {at}, got {body:g}") from None
+        return self._wrap(made, self.by_mass, self._names, self.order)
 
     def with_thread(self, length: float, pin: int) -> Chain:
         """Return the chain with a massless thread inserted at one of its pins.
@@ -396,7 +425,8 @@ class Chain(System):
         caller = "revchain.Chain.with_thread"
         core, at = compiled(caller, self), integer(caller, "pin", pin)
         made = _core.with_thread(core, real(caller, "length", length), at)
-        return self._wrap(made, self.by_mass, self._names and (*self._names[:at], "thread", *self._names[at:]))
+        names = self._names and (*self._names[:at], "thread", *self._names[at:])
+        return self._wrap(made, self.by_mass, names, self.order)
 
     def clamped(self, link: int) -> Chain:
         """Return the chain with two neighbouring links locked in line as one rigid link.
@@ -426,7 +456,7 @@ class Chain(System):
         at = integer(caller, "link", link)
         made = _core.clamped(compiled(caller, self), at)
         names = self._names and (*self._names[:at], " and ".join(self._names[at : at + 2]), *self._names[at + 2 :])
-        return self._wrap(made, self.by_mass, names)
+        return self._wrap(made, self.by_mass, names, self.order)
 
     def _words(self) -> list[str]:
         return ["support: firm", *self._link_words()]
@@ -524,15 +554,15 @@ class Chain(System):
 
     def _state(self) -> tuple[Any, ...]:
         """The numbers and arrays that make up the chain."""
-        return self._compiled.__getstate__(), self.by_mass, self._names
+        return self._compiled.__getstate__(), self.by_mass, self._names, self.order
 
     @classmethod
     def _from_state(cls, state: Any) -> Chain:
         """The chain from its state, for every pickle protocol (the compiled class knows only some)."""
-        parts, by_mass, names = state
+        parts, by_mass, names, *order = state
         compiled = _core.Chain.__new__(_core.Chain)
         compiled.__setstate__(tuple(parts))
-        return cls._wrap(compiled, by_mass, names)
+        return cls._wrap(compiled, by_mass, names, *order)
 
     def _data(self) -> dict[str, Any]:
         core = self._compiled
@@ -544,9 +574,11 @@ class Chain(System):
             "gyration_ratio": high,
             "gyration_ratio_low": low,
         }
-        numbers = {name: x.tolist() if isinstance(x, np.ndarray) else x for name, x in columns.items()}
-        data: dict[str, Any] = {"links": size, **numbers}
-        more = {"names": self._names and list(self._names), "taper": self.taper}
+        way = slice(None, None, 1 if self.order == _FREE_END else -1)
+        data: dict[str, Any] = {"links": size}
+        data |= {name: plain(column[way] if column.ndim else column) for name, column in columns.items()}
+        order = None if self.order == _FREE_END else self.order
+        more = {"names": self._names and list(self._names[way]), "taper": self.taper, "order": order}
         return data | {name: value for name, value in more.items() if value is not None}
 
     @classmethod
@@ -555,14 +587,17 @@ class Chain(System):
         if "gyration_ratio" not in data:
             return cls(**data)
         known = {"links", "mass" if by_mass else "weight", "length", "centroid", "gyration_ratio", "gyration_ratio_low"}
-        if unknown := sorted(data.keys() - known - {"names", "taper"}):
+        if unknown := sorted(data.keys() - known - {"names", "taper", "order"}):
             raise TypeError(f"there is no {unknown[0]}")
         heavy = data["mass" if by_mass else "weight"]
         numbers = [heavy, *(data[name] for name in ("length", "centroid", "gyration_ratio", "gyration_ratio_low"))]
         taper = (data["taper"],) if "taper" in data else ()
+        order: Any = word("revchain.Chain.from_dict", "order", data.get("order", _FREE_END), _ORDERS)
+        way = slice(None, None, 1 if order == _FREE_END else -1)
         arrays = [np.asarray(number, np.float64) for number in numbers]
+        arrays = [np.ascontiguousarray(array[way]) if array.ndim else array for array in arrays]
         names = data.get("names")
-        return cls._from_state(((data["links"], *arrays, 2, *taper), by_mass, names and tuple(names)))
+        return cls._from_state(((data["links"], *arrays, 2, *taper), by_mass, names and tuple(names)[way], order))
 
 
 def are_rods(length: ArrayLike, centroid: ArrayLike, radius_of_gyration: ArrayLike) -> Any:

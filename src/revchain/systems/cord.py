@@ -17,6 +17,7 @@ from .system import System
 
 Density = float | Callable[[float], float]
 Measured = TypeVar("Measured")
+_MOST_LENGTHS = 1e5  # of the cord, for the size of a bob: the nodes of larger ones are lost in rounding
 
 
 class CordData(NamedTuple):
@@ -53,7 +54,7 @@ class Cord(System):
         Mass (kg) or weight (N) of a point mass or bob at the free end, in the same quantity as the cord.
     masses, weights : mapping of float to float, optional
         Point masses on the cord (kg), such as clasps: ``{s: mass}`` with s the distance from the free end, m, or
-        ``{"50 cm": "20 g"}``. Not part of `mass`.
+        ``{"50 cm": "20 g"}``. Not part of `mass`. Masses at one place, such as 0.5 and ``"50 cm"``, are added.
     breaks : array_like, shape (B,), optional
         Distances from the free end at which a density function jumps or has a corner, m.
     tip_centroid, tip_radius_of_gyration : float, optional
@@ -65,9 +66,9 @@ class Cord(System):
     ------
     ValueError
         If a number is out of its range, masses are mixed with weights, a mass or break does not lie between the ends, breaks
-        are given without a function, a radius of gyration without a centroid, or a density function is not positive inside the
-        cord, has too many jumps and corners, or has an integral that cannot be resolved to 1e-6. The last two messages
-        name the place; use a `Chain` of many short links for such a cord.
+        are given without a function, a radius of gyration without a centroid, a bob is longer than 1e5 cords, or a
+        density function is not positive inside the cord, has too many jumps and corners, or has an integral that cannot
+        be resolved to 1e-6. The last two messages name the place; use a `Chain` of many short links for such a cord.
 
     Notes
     -----
@@ -143,6 +144,10 @@ class Cord(System):
             _not_negative(caller, "tip_centroid", tip_centroid),
             _not_negative(caller, "tip_radius_of_gyration", tip_radius_of_gyration),
         )
+        for name, size in zip(("tip_centroid", "tip_radius_of_gyration"), bob, strict=True):
+            if size > _MOST_LENGTHS * long:
+                why = f"must be at most {_MOST_LENGTHS:g} lengths of the cord (use a Chain)"
+                raise ValueError(f"{caller}: {name} {why}, got {size:g}")
         if bob[1] and not bob[0]:
             raise ValueError(
                 f"{caller}: tip_radius_of_gyration needs a tip_centroid above 0 beside it (a bob hung at its centre of gravity "

@@ -16,10 +16,10 @@ from .chain import Chain, checked, compiled
 from .cord import Cord
 from .held import Held
 from .numbers import Floats, shown
+from .paths import OF_LINKS, numbered, steps
 from .rig import Rig
 
-Path = tuple[str | int, ...]
-_PATH = re.compile(r"[a-z_]+(\[\d{1,9}\])?(\.[a-z_]+(\[\d{1,9}\])?)*")
+_MOST_NAMES = 12  # in a message
 _LENGTHS = ("length", "centroid", "radius_of_gyration", "length_in_proportion")
 
 
@@ -30,7 +30,7 @@ class Datum:
     Attributes
     ----------
     path : str
-        Path of the number.
+        Path of the number, with an index that counts links from 0 for the lowest.
     present : float
         Present value.
     change : callable
@@ -49,6 +49,8 @@ class Datum:
         Index of the link, from 0 for the lowest; 0 if the number belongs to no link.
     one_way : bool
         Whether every speed is known to be monotonic in the number, so that each speed has at most one value.
+    said : str
+        Path as the caller writes it: with a name, or an index in the caller's order.
     """
 
     path: str
@@ -60,6 +62,7 @@ class Datum:
     rate: tuple[str, Floats | float] | None = None
     link: int = 0
     one_way: bool = False
+    said: str = ""
 
     @property
     def quantity(self) -> str:
@@ -72,15 +75,12 @@ class Datum:
         return self.floor is None or self.floor < self.present < math.inf
 
 
-def steps(path: object) -> Path:
-    """The names and indices of a path into a system or a scene; empty if it is no path."""
-    if not isinstance(path, str) or _PATH.fullmatch(path) is None:
-        return ()
-    return tuple(int(index) if index else name for name, index in re.findall(r"([a-z_]+)|\[(\d+)\]", path))
+def datum_at(caller: str, system: Any, path: Any, gravity: float, argument: str = "vary") -> Datum:
+    """Return the datum at a path of the system, with a link by its name or by its index in the caller's order.
 
-
-def datum_at(caller: str, system: Any, path: Any, gravity: float) -> Datum:
-    """Return the datum at a path of the system. An unknown path raises a ValueError that lists the known ones."""
+    An unknown path raises a ValueError that lists the known ones.
+    """
+    said, path = path, _counted(caller, system, path, argument)
     name, link = path, None
     if len(parts := steps(path)) == 3 and isinstance(parts[1], int):
         name, link = f"{parts[0]}[k].{parts[2]}", parts[1]
@@ -88,37 +88,57 @@ def datum_at(caller: str, system: Any, path: Any, gravity: float) -> Datum:
     known = _paths(system, heavy)
     if not isinstance(name, str) or name not in known:
         if isinstance(name, str) and name.replace(other, heavy) in known:
-            hint = str(path).replace(other, heavy)
-            raise ValueError(f'{caller}: the {_kind(system)} was given by {heavy}: vary "{hint}", got {shown(path)}')
+            hint = f"{str(said).rpartition('.')[0]}.{name.rpartition('.')[2].replace(other, heavy)}".lstrip(".")
+            raise ValueError(f'{caller}: the {_kind(system)} was given by {heavy}: {argument} "{hint}", got {shown(said)}')
         if system._kind == "chain" and name == heavy:
             raise ValueError(
-                f'{caller}: vary must not be "{heavy}" of a whole chain, whose speeds depend on ratios alone; vary '
-                f'"links[k].{heavy}" of a link, got {shown(path)}'
+                f'{caller}: {argument} must not be "{heavy}" of a whole chain, whose speeds depend on ratios alone; vary '
+                f'"links[k].{heavy}" of a link, got {shown(said)}'
             )
         if name == "support.radius":
             raise ValueError(
                 f"{caller}: support.radius has no effect on the speeds of small oscillations, only on response and "
-                f"steady_shapes; vary another datum, got {shown(path)}"
+                f"steady_shapes; vary another datum, got {shown(said)}"
             )
         listed = ", ".join(f'"{one}"' for one in known)
-        raise ValueError(f"{caller}: vary must be one of {listed} of a {_kind(system)}, got {shown(path)}")
+        names = ", ".join(dict.fromkeys(filter(None, system._listed_names[:_MOST_NAMES])))
+        by_name = f" (k: an index or a name, {names})" if names else ""
+        raise ValueError(f"{caller}: {argument} must be one of {listed}{by_name} of a {_kind(system)}, got {shown(said)}")
     if link is not None and link >= system.size:
         what = name.partition("[")[0]
-        raise ValueError(f"{caller}: vary names {what}[{link}], and the highest is {what}[{system.size - 1}]")
+        raise ValueError(f"{caller}: {argument} names {what}[{link}], and the highest is {what}[{system.size - 1}]")
     datum = _READ[system._kind.partition(" ")[0]](caller, system, path, link, gravity)
-    return replace(datum, link=link or 0)
+    return replace(datum, link=link or 0, said=said)
 
 
-def refuse_overlap(caller: str, paths: Iterable[str]) -> None:
-    """Raise a ValueError if two paths change the same number."""
-    before: list[str] = []
-    for path in paths:
+def gravity_datum(system: Any, gravity: float) -> Datum:
+    """Gravity as a datum, which is none of the system: a change of it leaves the system as it is."""
+    return Datum("gravity", gravity, lambda x: system, gravity, said="gravity")
+
+
+def _counted(caller: str, system: Any, path: Any, argument: str) -> Any:
+    """The path with the index of its link from the lowest one; anything else is returned unchanged."""
+    if not isinstance(path, str) or not path.startswith(OF_LINKS) or system._is_cord:
+        return path
+    try:
+        path = numbered(path, system._listed_names)
+    except ValueError as error:
+        raise ValueError(f"{caller}: {argument}: {error}") from None
+    parts = steps(path)
+    if system._listed.step == 1 or len(parts) != 3 or not isinstance(parts[1], int) or parts[1] >= system._base.size:
+        return path
+    return f"{parts[0]}[{system._base.size - 1 - parts[1]}].{parts[2]}"
+
+
+def refuse_overlap(caller: str, data: Iterable[Datum]) -> None:
+    """Raise a ValueError if two data are the same number, or one changes the other."""
+    before: list[Datum] = []
+    for one in data:
         for other in before:
-            if path == other or any(_contains(*pair) for pair in ((path, other), (other, path))):
-                raise ValueError(
-                    f'{caller}: vary has "{other}" and "{path}", which change the same number; leave one of them out'
-                )
-        before.append(path)
+            if one.path == other.path or any(_contains(*pair) for pair in ((one.path, other.path), (other.path, one.path))):
+                both = f'"{other.said}" and "{one.said}"'
+                raise ValueError(f"{caller}: vary has {both}, which change the same number; leave one of them out")
+        before.append(one)
 
 
 def _contains(one: str, other: str) -> bool:
@@ -207,7 +227,7 @@ def _with_link(caller: str, chain: Chain, link: int, name: str, value: float) ->
 
 
 def _chain(caller: str, chain: Chain, state: tuple[Any, ...]) -> Chain:
-    made: Chain = checked(caller, chain.by_mass, Chain._from_state, (state, chain.by_mass, chain.names))
+    made: Chain = checked(caller, chain.by_mass, Chain._from_state, (state, chain.by_mass, chain.names, chain.order))
     return made
 
 

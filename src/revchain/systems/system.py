@@ -37,6 +37,22 @@ class System(Unchangeable):
         return self
 
     @property
+    def _listed(self) -> slice:
+        """The slice that turns arrays by link into the caller's order, and back."""
+        return slice(None, None, -1 if getattr(self._base, "order", "") == "support first" else 1)
+
+    @property
+    def _link_numbers(self) -> NDArray[np.int64]:
+        """Index of each link, lowest first, in the caller's order."""
+        return np.arange(self._base.size)[self._listed]
+
+    @property
+    def _listed_names(self) -> tuple[str, ...]:
+        """Names of the links in the caller's order; empty if they have none."""
+        names: tuple[str, ...] | None = getattr(self._base, "names", None)
+        return names[self._listed] if names else ()
+
+    @property
     def _stands(self) -> NDArray[np.bool_]:
         """Whether each link is inverted; one False for a cord."""
         return np.zeros(max(self._base.size, 1), bool)

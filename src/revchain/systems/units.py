@@ -61,6 +61,13 @@ _NAMES = {
 }
 SI = {name: (_KINDS[kind][0], kind, _KINDS[kind][1]) for kind, names in _NAMES.items() for name in names.split()}
 """SI unit, kind and an example of each quantity."""
+SPEED_UNITS = {
+    "rad/s": ("speed", 1.0),
+    "rpm": ("speed", 30 / math.pi),
+    "Hz": ("frequency", 0.5 / math.pi),
+    "s": ("period", 2 * math.pi),
+}
+"""Units in which speeds are shown: what is measured in each, and the number of the unit for 1 rad/s."""
 
 
 def unpacked(value: Any) -> Any:

@@ -94,23 +94,29 @@ struct GivenTopTension : Condition {
 };
 
 /// The plane across the branch at one of its points: it fixes the point on the arc, even at folds.
+/// The point is given in double. What is missing below its rounding counts as 0. Otherwise changes of
+/// an almost vertical link, relative to its inclination, would not become small.
 struct GivenPlace : Condition {
     const BranchPoint* point;
     explicit GivenPlace(const BranchPoint& p) : point(&p) {}
     std::pair<Fine, double> shortfall(const BranchLinks<Fine>& links, const std::vector<Fine>& y,
                                       const Fine& height, std::vector<double>& row) const override {
-        double sum = 0;
+        double sum = 0, rounded = 0;
         const double per_link = 1 / as_double(links.size());
         for (std::size_t m = 0; m < links.size(); ++m) {
             const Fine &a = links.links[m].length, d = y[m] - y[m + 1],
                        c = links.is_spring(m) ? Fine(1) : cosine_of(a, d);
             const double tangent = as_double(d / (a * c)), length = as_double(a),
-                         slope = links.is_spring(m) ? std::hypot(1, tangent) : as_double(c * c);
-            row[m] = per_link * point->tangent.tau[m] / (length * slope);
-            sum += per_link * point->tangent.tau[m] * (point->state.tau[m] - std::asinh(tangent));
+                         slope = links.is_spring(m) ? std::hypot(1, tangent) : as_double(c * c),
+                         tau = point->state.tau[m], along = per_link * point->tangent.tau[m];
+            row[m] = along / (length * slope);
+            sum += along * (tau - std::asinh(tangent));
+            rounded += std::abs(along) * (1 + std::abs(tau));
         }
-        const double log_off = point->state.log_height - std::log(as_double(height));
-        return {Fine(sum + point->tangent.log_height * log_off), point->tangent.log_height};
+        const double log_height = point->state.log_height, rise = point->tangent.log_height;
+        sum += rise * (log_height - std::log(as_double(height)));
+        rounded += std::abs(rise) * (1 + std::abs(log_height));
+        return {std::abs(sum) > 0x1p-51 * rounded ? Fine(sum) : Fine(0), rise};
     }
     double size(const Fine&) const override { return 0; }
 };

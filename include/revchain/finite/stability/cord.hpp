@@ -257,6 +257,12 @@ Stability judged(StabilityFrame frame, const Cord& cord, const Shape& shape) {
     const Stability coarse = found(8);
     detail::check_interrupt();
     Stability result = found(10);
+    if (coarse.exponents.empty() || result.exponents.empty()) {  // as of a cord folded on the axis
+        Stability unknown;
+        unknown.frame = frame;
+        unknown.growth_rate = std::numeric_limits<double>::quiet_NaN();
+        return unknown;
+    }
     const double apart = std::abs(result.growth_rate - coarse.growth_rate);
     result.margin = std::max({1e-7, 2 * apart, 1e-13 * std::abs(result.exponents.back())});
     if (result.verdict != Verdict::minimum) {

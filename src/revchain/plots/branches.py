@@ -1,0 +1,248 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bifurcation diagrams: branches of steady shapes against the speed."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from ..closed_forms.table import described
+from ..results.branches import MOST_JUDGED
+from ..results.shapes import is_driven
+from ..results.sheet import digits
+from ..systems.numbers import boolean, word
+from .modes import beside_at_rest
+from .style import SpeedUnit, half_waves_style, legend_outside, plain
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+
+    from ..results.branches import Branch, Branches
+
+_Parts = tuple[tuple[float, float, str], ...]
+QUANTITIES = {
+    "lowest_inclination": "inclination of the lowest link (degrees)",
+    "tip_radius": "tip radius (m)",
+    "largest_offset": "largest distance from axis (m)",
+    "top_tension": "tension at the upper end (N)",
+    "moment_of_inertia": "moment of inertia (kg m^2)",
+    "effective_energy": "effective energy (J)",
+}
+BY_WEIGHT = {
+    "top_tension": "tension at the upper end (unit of the weights)",
+    "moment_of_inertia": "moment of inertia (weight x length^2)",
+    "effective_energy": "effective energy (weight x length)",
+}
+LINES: dict[str, Any] = {  # by verdict
+    "minimum": "-",
+    "spectrally stable": (0, (7.0, 1.5, 1.5, 1.5)),
+    "unstable": (0, (3.0, 2.0)),
+    "undecided": (0, (1.0, 1.5)),
+}
+WORDS = {
+    "minimum": "minimum (stable)",
+    "spectrally stable": "spectrally stable",
+    "unstable": "unstable",
+    "undecided": "undecided",
+}
+FEW_MARKS = 3  # speeds that are written side by side
+CLOSEST = 0.03  # of the width, between marks whose speeds are written out
+
+
+class _Mark(NamedTuple):
+    """A fold or a pitchfork: where it is, in the units of the picture, and what it is."""
+
+    x: float
+    y: float
+    colour: str
+    kind: str
+
+
+MARKS: dict[str, dict[str, Any]] = {  # hollow marks hide no loop however small
+    "fold": {"marker": "D", "markersize": 5.0, "markerfacecolor": "none", "zorder": 3},
+    "pitchfork": {"marker": "o", "markersize": 5.0, "zorder": 3},
+    "change of stability": {"marker": "x", "markersize": 5.0, "zorder": 3},
+}
+
+
+def words_of(quantity: str, by_mass: bool) -> str:
+    """Return the label of an axis, with the unit that the quantity has for systems given by mass or by weight."""
+    return QUANTITIES[quantity] if by_mass else BY_WEIGHT.get(quantity, QUANTITIES[quantity])
+
+
+@described(bound=True)
+def plot_branch(
+    branch: Branch,
+    ax: Axes | None = None,
+    *,
+    quantity: str | None = None,
+    speed: str = "rad/s",
+    stability: bool | None = None,
+    frame: str = "free",
+) -> Axes:
+    """Draw a quantity of the branch against the speed, with its stability, folds and pitchfork.
+
+    quantity: Quantity to draw: ``lowest_inclination`` (in degrees; of hanging systems unless given),
+        ``tip_radius``, ``largest_offset`` (of held systems unless given), ``top_tension``, ``moment_of_inertia`` or
+        ``effective_energy``.
+    stability: Whether to draw the stability, as in `Branches.plot`.
+    frame: Frame of the stability, ``"free"`` or ``"driven"``, as in `SteadyShape.stability`.
+    raises: If `quantity` is another word, or one that the system does not have; if `frame` is another word.
+
+    >>> ax = rc.branch(rc.Chain.uniform_plummets(2, length=2.0), 1, min_conical_height=0.1).plot()
+    >>> ax.get_ylabel()
+    'inclination of the lowest link (degrees)'
+    """
+    return _draw([branch], ax, quantity, speed, stability, frame, "revchain.Branch.plot")
+
+
+@described(bound=True)
+def plot_branches(
+    branches: Branches,
+    ax: Axes | None = None,
+    *,
+    quantity: str | None = None,
+    speed: str = "rad/s",
+    stability: bool | None = None,
+    frame: str = "free",
+) -> Axes:
+    """Draw the bifurcation diagram: a quantity of each branch against the speed.
+
+    Colours show half waves. A line is solid where the shape is a minimum of the energy, dash-dotted where it is no minimum
+    but spectrally stable, dashed where it is unstable, dotted where the errors of the exponents leave the stability open.
+    Hollow diamonds are folds, discs are pitchforks, where a branch and its mirror image leave the vertical; their speeds are
+    above the frame, unless another one is so close that the numbers would overlap. Crosses are other changes of stability, such as a Hamiltonian Hopf bifurcation;
+    `Branches.stability_windows` says what each is, and finds windows shorter than the distance of two points.
+
+    quantity: Quantity to draw, as in `Branch.plot`.
+    stability: Whether to draw the stability; if False, all lines are solid. If left out, it is drawn for chains, rigs and held
+        chains if that takes less than about a second (points times links squared at most 150,000).
+    frame: Frame of the stability, ``"free"`` or ``"driven"``, as in `SteadyShape.stability`.
+    returns: The drawing. The title says whether the diagram is `complete`.
+    raises: If `quantity` is another word, or one that the system does not have; if `frame` is another word.
+
+    >>> ax = rc.branches(rc.Chain.uniform_plummets(3, length=3.0), min_conical_height=0.04).plot()
+    >>> ax.get_xlabel()
+    'speed (rad/s)'
+    """
+    ax = _draw(branches, ax, quantity, speed, stability, frame, "revchain.Branches.plot")
+    if not branches:
+        ax.set_title("no shape at or above this conical height")
+    elif hasattr(branches, "complete"):
+        ax.set_title("all branches: proved complete" if branches.complete else "branches found: not proved complete")
+    return ax
+
+
+def _draw(
+    branches: Sequence[Branch],
+    ax: Axes | None,
+    quantity: str | None,
+    speed: str,
+    stability: bool | None,
+    frame: str,
+    caller: str,
+) -> Axes:
+    """Draw a curve for each branch, in the styles of its stability, and mark folds and pitchforks."""
+    unit = SpeedUnit(caller, speed)
+    available = [name for name in QUANTITIES if not len(branches) or hasattr(branches[0], name)]
+    if quantity is None:
+        quantity = "largest_offset" if len(branches) and "tip_radius" not in available else "lowest_inclination"
+    word(caller, "quantity", quantity, available)
+    windows = _windows(caller, branches, stability, frame)
+    ax = beside_at_rest(branches[0].system if len(branches) else None, ax, 7.2, 5.0)
+    named: set[int] = set()
+    curves: dict[Artist, int] = {}
+    marks: list[_Mark] = []
+    for branch, parts in zip(branches, windows, strict=True):
+        x, y = unit.of(branch.angular_speed), getattr(branch, quantity)
+        if quantity.endswith("inclination"):
+            y = np.degrees(y)
+        waves = int(branch.half_waves[0])
+        colour, label = half_waves_style(waves, named)
+        for low, high, verdict in parts:
+            at = np.concatenate([[low], branch.point[(branch.point > low) & (branch.point < high)], [high]])
+            line = {"linestyle": LINES.get(verdict, "-"), "color": colour, "linewidth": 1.6}
+            ax.plot(*(np.interp(at, branch.point, each) for each in (x, y)), **line)
+        if label:
+            curves[ax.plot([], [], color=colour, linewidth=1.6, label=label)[0]] = waves
+        of_kind = {
+            "fold": branch.folds,
+            "pitchfork": [k for k, end in ((0, getattr(branch, "birth", "")), (-1, branch.end)) if end == "vertical"],
+            "change of stability": _changes(branch, parts),
+        }
+        for kind, points in of_kind.items():
+            for at in np.asarray(points, float) % len(branch):
+                here = [float(np.interp(at, branch.point, each)) for each in (x, y)]
+                marks.append(_Mark(here[0], here[1], colour, kind))
+    for mark in marks:
+        ax.plot(mark.x, mark.y, color=mark.colour, linestyle="none", **MARKS[mark.kind])
+    _label(ax, [mark for mark in marks if mark.kind in ("fold", "pitchfork")])
+    label = words_of(quantity, all(branch.system.by_mass for branch in branches))
+    names = getattr(branches[0].system._base, "names", None) if len(branches) else None
+    if names is not None and names[0] and quantity == "lowest_inclination":
+        label = plain(textwrap.fill(f"inclination of {names[0]} (degrees)", 40))
+    ax.set(xlabel=unit.label, ylabel=label)
+    ax.grid(color="0.9", linewidth=0.6)
+    ax.set_axisbelow(True)
+    if named:
+        there = {verdict for parts in windows for *_, verdict in parts}
+        for verdict in [each for each in LINES if each in there]:
+            ax.plot([], [], linestyle=LINES[verdict], color="0.3", linewidth=1.6, label=WORDS[verdict])
+        for kind in [each for each in MARKS if any(mark.kind == each for mark in marks)]:
+            ax.plot([], [], color="0.3", linestyle="none", **MARKS[kind], label=kind)
+        handles, labels = ax.get_legend_handles_labels()
+        order = sorted(range(len(labels)), key=lambda i: curves.get(handles[i], np.inf))  # those of the caller are last
+        legend_outside(ax, handles=[handles[i] for i in order], labels=[labels[i] for i in order])
+    return ax
+
+
+def _windows(caller: str, branches: Sequence[Branch], stability: bool | None, frame: str) -> list[_Parts]:
+    """Parts of each branch with one verdict; the verdict is empty where the stability is not drawn."""
+    driven = is_driven(caller, frame)
+    if stability is None:
+        known = not driven and all("_windows" in branch.__dict__ for branch in branches)
+        stability = known or sum(branch._work for branch in branches) <= MOST_JUDGED
+        required = False
+    else:
+        required = boolean(caller, "stability", stability)
+    found = []
+    for branch in branches:
+        parts: _Parts = ()
+        if stability and (required or hasattr(branch, "_windows")):
+            parts = branch._judged("driven") if driven else branch._windows
+        found.append(parts or ((0.0, len(branch) - 1.0, ""),))
+    return found
+
+
+def _changes(branch: Branch, parts: _Parts) -> list[float]:
+    """Where the stability changes and there is no fold, counted in points."""
+    decided = [each for each in parts if each[2] != "undecided"]
+    near = 0.05 if branch._is_of_links else 1.0  # the edges of other branches lie between two points
+    return [
+        (low + high) / 2
+        for (_, low, before), (high, _, after) in pairwise(decided)
+        if before != after and not ((branch.folds >= low - near) & (branch.folds <= high + near)).any()
+    ]
+
+
+def _label(ax: Axes, marks: list[_Mark]) -> None:
+    """Draw dotted lines at folds and pitchforks; their speeds are above the frame, where they hide no loop."""
+    left, right = ax.get_xlim()
+    last = -np.inf
+    ticks: list[float] = []
+    labels: list[str] = []
+    for at, _, colour, kind in sorted(marks):
+        ax.axvline(at, color=colour, linestyle=":", linewidth=0.8, zorder=1)
+        if at - last >= CLOSEST * (right - left):
+            ticks.append(at)
+            labels.append(f"{kind} {digits(at, 4)}")
+            last = at
+    if not ticks:
+        return
+    above = ax.secondary_xaxis("top")
+    above.set_xticks(ticks, labels, rotation=0 if len(ticks) <= FEW_MARKS else 90)
