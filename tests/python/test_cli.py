@@ -387,7 +387,7 @@ REFUSED = {  # command lines that end in one sentence without an answer
     "run study.toml": "is of a study, not of a scene: revchain sweep study.toml",
     "sweep swinging.toml": "is of a scene, not of a study: revchain run swinging.toml",
     "sweep study.toml --chunk 0": "'--chunk'",
-    "sweep study.toml --out a.txt": "--out: a.txt must end in .csv, .parquet or .nc",
+    "sweep study.toml --out a.txt": "--out: a.txt must end in .csv, .parquet, .xlsx or .nc",
     "sweep study.toml --out study.toml": "--out: study.toml: the study itself would be overwritten",
     "campbell watch.toml --angular-speed '1 to 15 rpm in 29'": '--angular-speed: only the last number has a unit: write "1 rpm to 15 rpm", got 1 to 15 rpm',
     "modes watch.toml --angular-speed '20 to 6e1 rpm'": '--angular-speed: only the last number has a unit: write "20 rpm to 6e1 rpm", got 20 to 6e1 rpm',

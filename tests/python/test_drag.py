@@ -433,7 +433,7 @@ def test_files_tables_and_pictures(tmp_path):
     pytest.importorskip("matplotlib")
     above = shape.plot()
     labels = [ax.get_ylabel() for ax in above.figure.axes]
-    assert labels == ["depth below the support (m)", "distance in the sense of motion (m)"]
+    assert labels == ["depth below\nthe support (m)", "distance in the\nsense of motion (m)"]
     assert shape.plot(view="side").get_xlabel() == "outward distance (m)"
     with pytest.raises(ValueError, match="view must be one of side, above, got 'x'"):
         shape.plot(view="x")

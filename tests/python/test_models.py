@@ -599,7 +599,8 @@ def test_the_command(capsys, tmp_path, monkeypatch):
     assert all(row.name in out and row.reason in out for row in why.rows)
     code, out, _ = run("--rtol", "0.1 %", "--json", "-")
     data = json.loads(out)
-    assert data.pop("system").startswith("support: firm") and data == {"title": "Rods", **why.to_dict()} and data["meets_tolerance"] and data["rtol"] == 1e-3
+    assert rc.Chain.from_dict(data.pop("system")) == rc.load_scene(path).system()
+    assert data.pop("description").startswith("support: firm") and data == {"title": "Rods", **why.to_dict()} and data["meets_tolerance"] and data["rtol"] == 1e-3
     assert [row["name"] for row in data["methods"]] == PUBLIC
     assert [row["name"] for row in data["methods"] if row["chosen"]] == ["continuous chain"]
     for words, scene, code in (

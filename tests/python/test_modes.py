@@ -85,7 +85,7 @@ def test_fields():
     chain = rc.Chain.uniform_rods(5, length=2.0)
     result = rc.modes(chain, count=3)
     assert {name for name in dir(result) if name[0] != "_"} == {name for name in rc.Modes._fields if name[0] != "_"} | (
-        {"along", "slope", "with_gravity", "plot", "save", "to_dataframe", "to_dict", "to_xarray", "uncertainty"}
+        {"along", "slope", "with_gravity", "plot", "save", "to_dataframe", "to_dict", "to_excel", "to_xarray", "uncertainty"}
         | {"animate", "show", "to_glb"}
     )
     assert result.system is chain and len(result) == 3 and result.gravity == 9.80665
@@ -224,8 +224,8 @@ def test_to_dict_is_ready_for_json():
     result = rc.modes(rc.Chain.uniform_rods(6, length=2.0, weight=3.0), count=2, gravity=1.62)
     data = result.to_dict()
     assert json.loads(json.dumps(data, allow_nan=False)) == data
-    facts = ["gravity", "method", "status", "precision", "complete", "other", "slack_link", "slack_speed", "system"]
-    assert list(data) == [*facts, "modes"] and data["complete"] is True and data["other"] == data["slack_link"] == []
+    facts = ["gravity", "method", "status", "precision", "complete", "other", "slack_link", "slack_speed", "description"]
+    assert list(data) == ["system", *facts, "modes"] and data["complete"] is True and data["other"] == data["slack_link"] == []
     assert data["gravity"] == 1.62
     second = data["modes"][1]
     numbers = ["angular_speed", "frequency", "rpm", "period", "speed_error_bound", "conical_height", "error_bound", "residual"]
@@ -234,7 +234,8 @@ def test_to_dict_is_ready_for_json():
     assert {name: second[name] for name in numbers} == {name: getattr(result, name)[1] for name in numbers}
     assert second["nodes"] == result.nodes[1].tolist() and len(second["nodes"]) == 1
     assert second["shape"] == result.shape[1].tolist()
-    assert data["system"] == result.system.describe()
+    assert data["description"] == result.system.describe()
+    assert rc.Chain.from_dict(data["system"]) == result.system
 
 
 def test_dataframe():

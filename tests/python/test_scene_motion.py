@@ -152,7 +152,8 @@ def test_the_commands(run, tmp_path):
     data = json.loads(out)
     found = rc.load_scene(path).steady_shapes()
     assert code == 0 and data["complete"] is True and data["title"] == "Two nuts"
-    assert data["system"].startswith("support: firm, carried round at 0.005 m; 2 times 0.5 kg on 0.5 m")
+    assert rc.Rig.from_dict(data["system"]) == found.system
+    assert data["description"].startswith("support: firm, carried round at 0.005 m; 2 times 0.5 kg on 0.5 m")
     assert [row["inclination"] for row in data["shapes"]] == [shape.inclination.tolist() for shape in found]
     code, out, _ = run("shapes", path, "--csv", "-", "--angular-speed", "5.0", "--gravity", "1.62 m/s^2")
     rows = list(csv.DictReader(io.StringIO(out)))

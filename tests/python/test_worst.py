@@ -10,7 +10,7 @@ from scipy.optimize import minimize
 
 import revchain as rc
 from revchain.results import enclosures
-from support.tier import by_tier
+from tier import by_tier
 
 PER = 16  # samples of a box: half of them corners
 

@@ -87,7 +87,7 @@ def animate(
             raise Stop(f"{scene}: {about}{words}", ExitCode.WRONG_USAGE) from None
     if not quiet:
         print(f"wrote {out}")
-    Report(read, scene.stem, found, "deg").check(scene)
+    Report(read, scene.stem, shown, found, "deg").check(scene)
 
 
 def _numbers(text: str) -> list[int]:

@@ -6,7 +6,7 @@ from __future__ import annotations
 import inspect
 import re
 import sys
-from contextlib import suppress
+from contextlib import AbstractContextManager, nullcontext, suppress
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any, Literal, get_args, get_origin
@@ -16,7 +16,9 @@ from msgspec import Meta, structs
 from rich.console import Console
 
 from ..closed_forms.governor import SleeveGovernor
-from ..results.files import written_aside
+from ..results.excel import pages_of, write_workbook
+from ..results.files import naming, written_aside
+from ..scenes.report import check_path, page_of
 from ..scenes.tables import QUESTIONS, TABLES, AskExplain, Pair, Spread, Table, fields_of
 from ..scenes.error import Problem, SceneError
 from ..scenes.parse import written
@@ -25,7 +27,7 @@ from ..scenes.system import Numbers, System, option
 from ..systems.extras import require
 from ..systems.units import PATTERN
 from . import ExitCode
-from .frame import STDOUT, Speed, Stop, app, check_speed, epilog, guarded, outputs_of
+from .frame import STDOUT, Speed, Stop, app, check_speed, checked_workbook, epilog, guarded, outputs_of
 from .progress import watched
 from .report import Report
 
@@ -44,6 +46,7 @@ COMMON: dict[str, tuple[Any, Any]] = {
     "plot": (Annotated[Path | None, typer.Option(metavar="FILE", help="Picture: .png, .svg or .pdf.")], None),
     "json": (Annotated[str | None, typer.Option(metavar="FILE|-", help="All numbers as JSON; - is stdout.")], None),
     "csv": (Annotated[str | None, typer.Option(metavar="FILE|-", help="All numbers as CSV; - is stdout.")], None),
+    "xlsx": (Annotated[Path | None, typer.Option(metavar="FILE", help="All numbers as a workbook: .xlsx.")], None),
     "quiet": (Quiet, False),
 }
 
@@ -55,12 +58,17 @@ def run(
     out: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Folder for reports, numbers and pictures; out/SCENE if left out.")
     ] = None,
+    report: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Page with the system, all answers and pictures to hand on: .html.")
+    ] = None,
+    xlsx: Annotated[Path | None, typer.Option(metavar="FILE", help="All numbers as a workbook: .xlsx.")] = None,
     gravity: Gravity = None,
     units: Units = "deg",
     speed: Speed = None,
     quiet: Quiet = False,
 ) -> None:
     """Answer all questions of a scene; find its modes (of a governor its equilibria) if it has none."""
+    wholes = checked_wholes(scene, report, xlsx) if report or xlsx else []
     checked, folder = read_scene(scene, gravity, units, speed), Path("out", scene.stem) if out is None else out
     kinds = [".txt", ".json", ".csv", ".png"]
     try:
@@ -72,17 +80,55 @@ def run(
         raise Stop(f"{scene}: the scene itself would be overwritten", ExitCode.WRONG_USAGE)
     folder.mkdir(parents=True, exist_ok=True)
     failed: list[Stop] = []
-    for nth, question in enumerate(checked._questions):
-        outputs = [(folder / f"{question}{kind}", kind) for kind in kinds]
-        try:
-            report = _answer(scene, checked, question, None, outputs, units, quiet)
-            if not quiet:
-                _show(report, outputs, heading=nth == 0)
-            report.check(scene)
-        except Stop as stop:
-            failed.append(stop)
+    answers: dict[str, Any] = {}
+    opened: AbstractContextManager[list[Path]] = written_aside(*wholes) if wholes else nullcontext([])
+    with opened as asides:  # before the questions are answered
+        for nth, question in enumerate(checked._questions):
+            outputs = [(folder / f"{question}{kind}", kind) for kind in kinds]
+            try:
+                answer = _answer(scene, checked, question, None, outputs, units, quiet)
+                answers[question] = answer.found
+                if not quiet:
+                    _show(answer, outputs, heading=nth == 0)
+                answer.check(scene)
+            except Stop as stop:
+                answers.setdefault(question, str(stop).removeprefix(f"{scene}: ").removeprefix(f"{question}: "))
+                failed.append(stop)
+        if wholes:
+            write_wholes(checked, answers, wholes, asides, units, gravity)
+    if wholes and not quiet:
+        print(f"wrote {', '.join(map(str, wholes))}")
     if failed:
         raise Stop("\nrevchain: ".join(map(str, failed)), max(stop.code for stop in failed))
+
+
+def checked_wholes(scene: Path, report: Path | None, xlsx: Path | None) -> list[Path]:
+    """The files that hold all answers, after a check that they can be made: the report, the workbook."""
+    if report is not None:
+        try:
+            check_path("--report:", report)
+        except ValueError as error:
+            raise Stop(str(error), ExitCode.WRONG_USAGE) from None
+    if xlsx is not None:
+        checked_workbook(xlsx)
+    wholes = [path for path in (report, xlsx) if path is not None]
+    if scene.resolve() in [path.resolve() for path in wholes]:
+        raise Stop(f"{scene}: the scene itself would be overwritten", ExitCode.WRONG_USAGE)
+    return wholes
+
+
+def write_wholes(
+    scene: Scene, answers: dict[str, Any], wholes: list[Path], asides: list[Path], units: str, gravity: str | None
+) -> None:
+    """Write the report and the workbook of all answers to the temporary files beside them."""
+    options = (f' --gravity "{gravity}"' if gravity else "") + (f" --units {units}" if units != "deg" else "")
+    found = {question: answer for question, answer in answers.items() if not isinstance(answer, str)}
+    for path, aside in zip(wholes, asides, strict=True):
+        with naming(path):
+            if path.suffix.lower() != ".xlsx":
+                aside.write_text(page_of(scene, answers, units, options), encoding="utf-8")
+            elif found:
+                write_workbook(aside, pages_of(found, scene.title), path)
 
 
 def _command(question: str, table: type[Table], summary: str) -> None:
@@ -92,7 +138,7 @@ def _command(question: str, table: type[Table], summary: str) -> None:
         common = {name: given.pop(name) for name in COMMON if name in given}
         changed = {name: _meant(field, given[name]) for name, field in fields.items() if given[name] is not None}
         checked = read_scene(scene, common["gravity"], common["units"], common["speed"])
-        outputs = outputs_of(scene, common.get("plot"), common["json"], common["csv"])
+        outputs = outputs_of(scene, common.get("plot"), common["json"], common["csv"], common["xlsx"])
         report = _answer(scene, checked, question, changed, outputs, common["units"], common["quiet"])
         if STDOUT in (common["json"], common["csv"]):
             sys.stdout.write(report.text(".json" if common["json"] == STDOUT else ".csv"))
@@ -209,7 +255,7 @@ def _answer(
     """Answer one question and write the files. The outputs are opened first. `changed` are options, None without any."""
     with written_aside(*[file for file, _ in outputs]) as asides:
         found = answer_of(path, scene, question, changed, quiet)
-        report = Report(scene, path.stem, found, units, None if changed is None else changed.get("count"))
+        report = Report(scene, path.stem, question, found, units, None if changed is None else changed.get("count"))
         report.write(outputs, asides)
     return report
 

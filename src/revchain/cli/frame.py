@@ -26,12 +26,13 @@ STDOUT = "-"
 
 EXIT_CODES = "Exit codes: " + "; ".join(f"{code.value} {meaning}" for code, meaning in MEANING.items()) + "."
 
-_ON_REQUEST = "only those given by --plot, --json and --csv"
+_ON_REQUEST = "only those given by --plot, --json, --csv and --xlsx"
 # Of each command: a command line that works in a copy of the repository, and the files that the command writes.
 USE: dict[str, tuple[str, str]] = {
     "run": (
         "revchain run examples/scenes/watch_chain.toml",
-        "QUESTION.txt, .json, .csv and .png for each question of the scene, in the folder out/SCENE or --out",
+        "QUESTION.txt, .json, .csv and .png for each question of the scene, in the folder out/SCENE or --out; "
+        "the page given by --report and the workbook given by --xlsx",
     ),
     "modes": ("revchain modes examples/scenes/watch_chain.toml --count 3 --plot modes.svg", _ON_REQUEST),
     "shapes": ('revchain shapes examples/scenes/chair_o_plane.toml --angular-speed "12 rpm"', _ON_REQUEST),
@@ -50,7 +51,7 @@ USE: dict[str, tuple[str, str]] = {
     ),
     "drag": ('revchain drag examples/scenes/whirling_machine.toml --angular-speed "60 rpm" --plot drag.svg', _ON_REQUEST),
     "equilibria": ('revchain equilibria examples/scenes/porter_governor.toml --angular-speed "125 rpm"', _ON_REQUEST),
-    "explain": ("revchain explain examples/scenes/watch_chain.toml --rtol 1e-3", "only those given by --json and --csv"),
+    "explain": ("revchain explain examples/scenes/watch_chain.toml --rtol 1e-3", "only those given by --json, --csv and --xlsx"),
     "animate": ("revchain animate examples/scenes/two_weights.toml --out weights.html", "the file given by --out"),
     "sweep": (
         "revchain sweep examples/studies/two_weights.toml --out weights.csv",
@@ -196,7 +197,16 @@ def checked_picture(plot: Path) -> None:
     require("matplotlib", "plot", "--plot")
 
 
-def outputs_of(scene: Path, plot: Path | None, json: str | None, csv: str | None) -> list[tuple[Path, str]]:
+def checked_workbook(path: Path) -> None:
+    """Check that a workbook can be written."""
+    if path.suffix.lower() != ".xlsx":
+        raise Stop(f"--xlsx: {path} must end in .xlsx", ExitCode.WRONG_USAGE)
+    require("openpyxl", "excel", "--xlsx")
+
+
+def outputs_of(
+    scene: Path, plot: Path | None, json: str | None, csv: str | None, xlsx: Path | None = None
+) -> list[tuple[Path, str]]:
     """The files to write, each with the kind of its content."""
     if json == STDOUT and csv == STDOUT:
         raise Stop("--json - and --csv - cannot share stdout", ExitCode.WRONG_USAGE)
@@ -204,9 +214,12 @@ def outputs_of(scene: Path, plot: Path | None, json: str | None, csv: str | None
     if plot is not None:
         checked_picture(plot)
         outputs.append((plot, plot.suffix.lower()))
+    if xlsx is not None:
+        checked_workbook(xlsx)
+        outputs.append((xlsx, ".xlsx"))
     seen = {scene.resolve(): ""}
     for path, kind in outputs:
-        name = f"--{kind[1:]}" if kind in (".json", ".csv") else "--plot"
+        name = f"--{kind[1:]}" if kind in (".json", ".csv", ".xlsx") else "--plot"
         if (before := seen.setdefault(path.resolve(), name)) == "":
             raise Stop(f"{name}: {scene}: the scene itself would be overwritten", ExitCode.WRONG_USAGE)
         if before != name:

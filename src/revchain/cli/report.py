@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import io
+import math
 import re
 from dataclasses import replace
 from functools import cached_property
@@ -13,16 +14,16 @@ from typing import Any
 
 import msgspec
 from msgspec import UnsetType
-import numpy as np
 from rich import box
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from ..results.explanation import Explanation
+from ..closed_forms.governor import SleeveGovernor
+from ..results.excel import pages_of, write_workbook
 from ..results.modes import Modes
-from ..results.motions import Response, Swing
-from ..results.sheet import Column, Sheet, as_csv, as_dict, cells
+from ..results.sheet import Sheet, as_csv, as_dict, cells
+from ..scenes.report import drawn, further_sheets, in_radians, shortfall
 from ..scenes.system import in_file
 from ..scenes.scene import Scene
 from . import ExitCode
@@ -30,16 +31,17 @@ from .frame import PICTURES, Stop, save_picture
 
 NARROWEST = 80  # smallest width of a terminal in columns; numbers are never cut
 HEADING = 10  # width of a line of a heading in columns
-MANY_TIMES = 12
 
 
 class Report:
     """The answer to one question of a scene: as text, JSON, CSV and picture."""
 
-    def __init__(self, scene: Scene, stem: str, found: Any, units: str, count: int | str | None = None) -> None:
-        self.scene = scene
+    def __init__(
+        self, scene: Scene, stem: str, question: str, found: Any, units: str, count: int | str | None = None
+    ) -> None:
+        self.scene, self.question = scene, question
         self.title = scene.title or stem
-        self.system = scene.system().describe()
+        self.system: str = getattr(found, "description", "") or scene.system().describe()  # modes know it
         self.found = found
         self.units = units
         if count is None and isinstance(found, Modes) and not isinstance(scene.ask.modes, UnsetType):
@@ -50,17 +52,8 @@ class Report:
     @cached_property
     def tables(self) -> list[tuple[Text | None, Table | None]]:
         """The printed tables: the heading and the grid of each, None where it has none."""
-        sheets: list[Sheet] = [self.sheet]
-        for name in ("certificate", "other", "governor"):
-            part = getattr(self.found, name, None)
-            if part is not None and (name != "other" or len(part)):
-                sheets.append(part._sheet())
-        if getattr(self.found, "_stability", False):
-            sheets.append(self.found.stability_windows()._sheet(brief=True))
-        if isinstance(self.found, Response) and self.found.angular_speed.size == 1:
-            sheets.append(_pins(self.found))
         tables: list[tuple[Text | None, Table | None]] = []
-        for sheet in sheets:
+        for sheet in (self.sheet, *further_sheets(self.found)):
             heading = Text(sheet.heading, style="" if sheet.good else "bold yellow") if sheet.heading else None
             tables.append((heading, _grid(sheet, self.units)))
         return tables
@@ -68,29 +61,18 @@ class Report:
     def check(self, path: Path) -> None:
         """Raise Stop with exit code 1 unless everything was found and proved."""
         missing = getattr(self.found, "missing", ())
-        if self.sheet.good and not missing:
-            return
-        what = "not proved to be all there is"
-        if isinstance(self.found, Explanation):
-            best = self.found.chosen
-            what = "no method applies"
-            if best:
-                what = f"no method keeps the tolerance; the best bound is {best.error_bound:.1e}"
-        if missing:
-            what = f"no shape was found with {', '.join(map(str, missing))} half wave{'s' * (list(missing) != [1])}"
-        if isinstance(self.found, Modes):
-            what = "the tolerance is not met"
-            if self.found.rtol is not None:
-                what += f": asked {self.found.rtol:g}, reached {self.found.error_bound.max():.1e}"
-        raise Stop(f"{path}: {what}", ExitCode.TOLERANCE_NOT_MET)
+        if missing or not self.sheet.good:
+            raise Stop(f"{path}: {shortfall(self.found)}", ExitCode.TOLERANCE_NOT_MET)
 
     def write(self, outputs: list[tuple[Path, str]], asides: list[Path]) -> None:
         """Write the outputs, each a file and its kind, to the temporary files beside them."""
         for aside, (file, kind) in zip(asides, outputs, strict=True):
             try:
                 if kind in PICTURES:
-                    axes = self.found.plot(**_drawn(self.found))
+                    axes = self.found.plot(**(drawn(self.found) if hasattr(self.found, "time") else {}))
                     save_picture(axes, self.title, aside)
+                elif kind == ".xlsx":
+                    write_workbook(aside, pages_of({self.question: self.found}, self.title), file)
                 else:
                     aside.write_text(self.text(kind), encoding="utf-8")
             except OSError as error:  # may name the temporary file, or none
@@ -104,14 +86,22 @@ class Report:
             return re.sub(r" +$", "", file.getvalue(), flags=re.MULTILINE)
         if kind == ".csv":
             return as_csv(self._all)
-        data = {"title": self.title, "system": self.system, **as_dict(self._all)}
+        data = {"title": self.title, "description": self.system, "system": {}, **as_dict(self._all)}
+        data["system"] = data["system"] or self._numbers()
         # msgspec writes null for a number that is not finite
         return msgspec.json.format(msgspec.json.encode(data), indent=2).decode() + "\n"
+
+    def _numbers(self) -> dict[str, Any]:
+        """The system in numbers, for an answer that does not hold it; of a governor the arguments of its class."""
+        system = self.scene.system()
+        if not isinstance(system, SleeveGovernor):
+            return system.to_dict()
+        return {"system": "SleeveGovernor", **{name: value for name, value in system._facts().items() if value < math.inf}}
 
     @cached_property
     def _all(self) -> Sheet:
         """All columns for files, apart from the shapes of modes."""
-        sheet: Sheet = self.found._sheet()
+        sheet: Sheet = self.found._full()
         columns = [column for column in sheet.columns if (column.name, *column.axes) != ("shape", "pin")]
         return replace(sheet, columns=columns)
 
@@ -137,32 +127,9 @@ class Report:
             console.print(Text(note, style="dim"))
 
 
-def _drawn(found: Any) -> dict[str, Any]:
-    """How an answer is drawn: a swing at many times, whose shapes hide one another, as offsets against time."""
-    if not isinstance(found, Swing) or found.time.size <= MANY_TIMES:
-        return {}
-    size = found.system.size
-    return {"kind": "time", "pins": sorted({0, size // 3, 2 * size // 3})}
-
-
-def _pins(found: Response) -> Sheet:
-    """The offset of each pin at one speed."""
-    offset = np.atleast_1d(found.offset.reshape(-1))
-    pins = Column("pin", np.atleast_1d(found.pins), "pin (0: free end)")
-    columns = [pins, Column("offset", np.abs(offset) if np.iscomplexobj(offset) else offset, "from the axis (m)", 10)]
-    if np.iscomplexobj(offset):
-        phase = np.angle(offset)
-        columns.append(Column("phase", phase, "ahead (°)", 4, shown=np.degrees(phase), unit="rad"))
-    return Sheet("pin", "a resonance: it goes out without bound" if found.resonant else "", columns)
-
-
 def _grid(sheet: Sheet, units: str) -> Table | None:
     """The table of a sheet, with its angles in degrees or radians; None if it has no rows."""
-    if units == "rad":
-        turned = [column for column in sheet.columns if "(°)" in column.heading]
-        in_rad = {id(each): each._replace(heading=each.heading.replace("(°)", "(rad)"), shown=None) for each in turned}
-        sheet = replace(sheet, columns=[in_rad.get(id(column), column) for column in sheet.columns])
-    headings, rows, notes = cells(sheet)
+    headings, rows, notes = cells(sheet := in_radians(sheet) if units == "rad" else sheet)
     if not rows:
         return None
     hidden = len(sheet) - len(rows)

@@ -20,7 +20,7 @@ from ..plots.sweep import in_speed_unit, plot_sweep, why_not_drawn
 from ..results.files import written_aside
 from ..studies.plan import columns_of, said
 from ..studies.study import Study, load_study
-from ..studies.sweep import check_ending, columns
+from ..studies.sweep import check_output, columns
 from ..studies.sweep import sweep as compute
 from . import ExitCode
 from .frame import Speed, Stop, app, check_speed, checked_picture, epilog, guarded, save_picture
@@ -41,7 +41,7 @@ def sweep(
     ],
     out: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="File for the results: .csv, .parquet or .nc; STUDY.csv here if left out."),
+        typer.Option(metavar="FILE", help="File for the results: .csv, .parquet, .xlsx or .nc; STUDY.csv here if left out."),
     ] = None,
     plot: Annotated[Path | None, typer.Option(metavar="FILE", help="Picture: .png, .svg or .pdf.")] = None,
     workers: Annotated[int | None, typer.Option(metavar="K", min=1, help="Number of threads or processes.")] = None,
@@ -67,7 +67,7 @@ def sweep(
     if out.resolve() == study.resolve():
         raise Stop(f"--out: {study}: the study itself would be overwritten", ExitCode.WRONG_USAGE)
     try:
-        check_ending(out)
+        check_output(out, given._plan(str(study)).points)
     except ValueError as error:
         raise Stop(f"--out: {error}", ExitCode.WRONG_USAGE) from None
     began = time.perf_counter()

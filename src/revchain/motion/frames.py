@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import subprocess
+import textwrap
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -12,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..plots.modes import BACKWARD, FORWARD, LINK, ROD
-from ..plots.style import AXIS, house, plain
+from ..plots.style import AXIS, apart, house, plain
 from ..systems.extras import require
 from ..systems.numbers import Floats
 from .film import Complex, Figure, Film, side_by_side
@@ -21,6 +22,7 @@ TILT = np.radians(14.0)  # of the view from above
 TALL, WIDE, LEAST = 4.6, 11.0, 4.4  # inches: height of the figures at most, width of the film at most and at least
 CAPTION, CHART, LETTER, BOLD = 0.95, 3.3, 0.07, 0.082  # inches: widths
 MOST_PINS = 400
+MOST_NAMES, NAME_WIDTH = 12, 20  # links whose names are written, letters in a line
 TINTS = 8  # of each colour of a GIF
 Progress = Callable[[int, int], None]
 
@@ -34,10 +36,13 @@ class Drawing:
         deep = film.reach * np.sin(TILT)
         size = max(high - low, 0.1 * film.reach) * np.cos(TILT) + 2 * deep
         chart = CHART if film.chart is not None else 0.0
+        names = [textwrap.fill(name.partition("] ")[2], NAME_WIDTH) for name in film.names]
+        names = names if any(names) and len(names) <= MOST_NAMES else []
+        named = 0.2 * bool(names) + LETTER * max((len(line) for name in names for line in name.split("\n")), default=0)
         per = TALL / (1.1 * size)  # inches a metre
         for _ in range(5):
             widths = film.widths(CAPTION / per)
-            per = min((WIDE - chart) / widths.sum(), TALL / (1.1 * size))
+            per = min((WIDE - chart - named) / widths.sum(), TALL / (1.1 * size))
         self.across = side_by_side(widths)
         drawn = (per * widths.sum(), per * 1.1 * size)
         lines = 1 + max(caption.count("\n") for figure in film.figures for caption in figure.captions)
@@ -45,14 +50,14 @@ class Drawing:
         progress = () if film.chart is not None else film.progress  # captions have the speeds of a chart
         longest = max(map(len, progress), default=0)
         written = max(BOLD * len(film.system), LETTER * (len(film.words) + longest + 2))
-        whole = np.array([max(drawn[0] + chart, LEAST, min(written, WIDE)), max(drawn[1], 1.5) + head + foot])
+        whole = np.array([max(drawn[0] + chart + named, LEAST, min(written, WIDE)), max(drawn[1], 1.5) + head + foot])
         whole = 2 * np.round(50 * whole) / 100  # an even number of pixels, which H.264 needs
         figure = require("matplotlib.figure", "animate", "animation").Figure(figsize=whole, dpi=100)
         self.canvas = require("matplotlib.backends.backend_agg", "animate", "animation").FigureCanvasAgg(figure)
         across = (whole[0] - chart) / whole[0]
         ax = self.ax = figure.add_axes((0.0, 0.0, across, 1.0))
         ax.set_axis_off()
-        middle = (widths.sum() - widths[0]) / 2
+        middle = (widths.sum() - widths[0] - named / per) / 2
         ax.set_xlim(middle - (whole[0] - chart) / per / 2, middle + (whole[0] - chart) / per / 2)
         bottom = low * np.cos(TILT) - deep - (foot / per + 0.05 * size)
         ax.set_ylim(bottom, bottom + whole[1] / per)
@@ -64,6 +69,8 @@ class Drawing:
             self._move(clock, lambda frame: clock.set_text(f"{words}; {progress[frame].lower()}"))
         for nth, each in enumerate(film.figures):
             self._stage(each, nth, low, high, deep)
+        if names:
+            self._names(names, -float(widths[0]) / 2, 0.17 / per)
         if chart:
             inner = (
                 across + 0.8 / whole[0],
@@ -117,6 +124,17 @@ class Drawing:
             self._move(text, lambda frame: text.set_text(plain(figure.caption(frame))))
         else:
             text.set_text(plain(figure.captions[0]))
+
+    def _names(self, names: list[str], left: float, line: float) -> None:
+        """Write the names of the links to the left of the first figure, at the heights of their bodies in its first frame."""
+        film = self.film
+        height = film.figures[0].heights(0) * np.cos(TILT)
+        along = np.full(len(names), 0.5)
+        along[film.bodies.link] = film.bodies.along
+        level = height[1:] + along * (height[:-1] - height[1:])
+        lines = np.array([name.count("\n") + 1.3 for name in names])
+        for place, name in zip(apart(level, line * lines), names, strict=True):
+            self.ax.text(left, place, plain(name), ha="right", va="center", fontsize=8, color="0.35")
 
     def _bodies(self, links: Any, wheel: float) -> None:
         bodies = self.film.bodies

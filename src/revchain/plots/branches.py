@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -15,7 +16,7 @@ from ..results.shapes import is_driven
 from ..results.sheet import digits
 from ..systems.numbers import boolean, word
 from .modes import beside_at_rest
-from .style import SpeedUnit, half_waves_style, legend_outside
+from .style import SpeedUnit, half_waves_style, legend_outside, plain
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -181,7 +182,11 @@ def _draw(
     for mark in marks:
         ax.plot(mark.x, mark.y, color=mark.colour, linestyle="none", **MARKS[mark.kind])
     _label(ax, [mark for mark in marks if mark.kind in ("fold", "pitchfork")])
-    ax.set(xlabel=unit.label, ylabel=words_of(quantity, all(branch.system.by_mass for branch in branches)))
+    label = words_of(quantity, all(branch.system.by_mass for branch in branches))
+    names = getattr(branches[0].system._base, "names", None) if len(branches) else None
+    if names is not None and names[0] and quantity == "lowest_inclination":
+        label = plain(textwrap.fill(f"inclination of {names[0]} (degrees)", 40))
+    ax.set(xlabel=unit.label, ylabel=label)
     ax.grid(color="0.9", linewidth=0.6)
     ax.set_axisbelow(True)
     if named:

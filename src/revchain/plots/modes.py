@@ -7,6 +7,7 @@ import math
 import textwrap
 from collections.abc import Iterable
 from functools import cached_property, partial
+from itertools import repeat
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,8 +19,8 @@ from ..results.sheet import digits
 from ..systems.numbers import integer, listed, shown
 from .forms import WIDEST_FORM, colour_of, draw_form, extent_of, form_of, forms, start_of, unit_of
 from .style import (
-    AXIS, GREEN, HOUSE, MOST_PINS_AS_DOTS, MOST_POINTS, TIMED_UNITS, WIDEST, SpeedUnit, axes_or_new, new_figure,
-    plain, thinned, with_speeds,
+    AXIS, GREEN, HOUSE, MOST_PINS_AS_DOTS, MOST_POINTS, TIMED_UNITS, WIDEST, SpeedUnit, apart, axes_or_new, figure_of, moved_by,
+    new_figure, plain, thinned, with_speeds,
 )
 
 if TYPE_CHECKING:
@@ -42,10 +43,11 @@ FOLD = 0.3  # sideways, between the links that hang and those that stand on them
 MOST_SHAPES = 6  # unless the caller chooses them: more are not legible side by side
 SPACING = 2.6  # between the axes of neighbouring shapes, each of which reaches from -1 to 1
 MOST_NAMES = 12
-NAME_WIDTH = 12  # letters in a line of a name
+NAME_WIDTHS = (12, 20, 40)  # letters in a line of a name: the least with which there is room for all
+MOST_LINES = 18  # of all names
 COLUMN = 1.25  # inches between the axes of neighbouring shapes
 PLOT_HEIGHT = 4.0  # inches of the frame of a new figure
-LETTER, LETTER_OF_LABEL = 0.07, 0.088  # inches
+LETTER, LETTER_OF_LABEL, LINE_HEIGHT = 0.07, 0.088, 0.145  # inches
 WHEEL = 0.6  # half the length of the bar of a flywheel
 
 
@@ -75,19 +77,24 @@ class Straight:
     def names(self) -> list[str]:
         """Return the names of the links, in short lines; none if there are many links."""
         names = getattr(self.base, "names", None)
-        few = names is not None and len(names) <= MOST_NAMES and self.few
-        return [plain(textwrap.fill(name, NAME_WIDTH)) for name in names or ()] if few else []
+        if names is None or len(names) > MOST_NAMES or not self.few:
+            return []
+        for width in NAME_WIDTHS:
+            folded = [textwrap.fill(name, width) for name in names]
+            if sum(map(str.count, folded, repeat("\n"))) + len(folded) <= MOST_LINES:
+                break
+        return [plain(name) for name in folded]
 
     def beside(self) -> float:
         """Return how far bodies and flywheels reach sideways, in units of the axis."""
         reach = [extent_of(form)[0] * unit * metre for form, unit, metre in self._forms.values()]
         return max([*reach, WHEEL * self.system.has_momentum])
 
-    def room(self) -> tuple[float, float]:
-        """Return how far bodies and a spring reach to the left, and names to the right if columns have their usual width."""
+    def room(self, narrow: float = 1.0) -> tuple[float, float]:
+        """Return how far bodies and a spring reach to the left, and names to the right if columns are so many times narrower."""
         far, longest = self.beside(), max((len(line) + 2 for name in self.names() for line in name.split("\n")), default=0)
         left = max(SPACING / 2, far + 0.2 + 0.9 * (self.system._support is not None))
-        return left, max(SPACING / 2, far + longest * LETTER * SPACING / COLUMN)
+        return left, max(SPACING / 2, far + narrow * longest * LETTER * SPACING / COLUMN)
 
     @property
     def height(self) -> Floats:
@@ -232,11 +239,22 @@ class Straight:
         for wheel in np.flatnonzero((system._momentum(1.0) != 0) & ~named).tolist():
             ends = across[wheel] - WHEEL, across[wheel] + WHEEL
             ax.hlines(middle[wheel], *ends, color=BACKWARD if backward[wheel] else FORWARD, linewidth=4.0, zorder=3)
-        far = self.beside()
-        for x, z, name in zip(across, middle, self.names(), strict=False):
-            side = -1 if x < across.max() else 1  # to the left where links stand on the right
-            beside: dict[str, Any] = {"ha": "left" if side > 0 else "right", "va": "center", "fontsize": "small"}
-            ax.annotate(name, (x + side * far, z), xytext=(9 * side, 0), textcoords="offset points", **beside)
+        if names := self.names():
+            for side in (-1, 1):  # to the left where links stand on the right
+                self._write(ax, side, np.flatnonzero((across < across.max()) == (side < 0)), across, names)
+
+    def _write(self, ax: Axes, side: int, links: Whole, across: Floats, names: list[str]) -> None:
+        """Write the names of some links beside their bodies, apart from each other, with a line where one had to move."""
+        low, high = self._ends()
+        line = (high - low) * LINE_HEIGHT / (0.8 * float(figure_of(ax).get_size_inches()[1]))
+        middle, far = self._middles()[links], self.beside()
+        lines = np.array([1 + names[link].count("\n") for link in links])
+        beside: dict[str, Any] = {"ha": "left" if side > 0 else "right", "va": "center", "fontsize": "small"}
+        for link, level, place in zip(links, middle, apart(middle, line * (lines + 0.3), low, high), strict=True):
+            x, moved = float(across[link] + side * far), abs(place - level) > line
+            leader = {"arrowstyle": "-", "color": "0.6", "linewidth": 0.6, "shrinkA": 0.0, "shrinkB": 1.0} if moved else None
+            away = moved_by(ax, side * (22 if moved else 9))
+            ax.annotate(names[link], (x, level), (x, place), textcoords=away, arrowprops=leader, **beside)
 
 
 def rods_of(base: Any) -> Floats:
@@ -297,6 +315,8 @@ def beside_at_rest(system: System | None, ax: Axes | None, width: float, height:
         height = float(np.clip((WIDEST - own - 1.3) / part, 3.0, 5.2))
         width = max(1.3 + height * part, 2.5)
     figure = new_figure(min(width + own, 1.2 * WIDEST if share else WIDEST), height)
+    if straight.names() and (engine := figure.get_layout_engine()) is not None:
+        engine.set(w_pad=0.1)  # type: ignore[call-arg]
     left, right = figure.subplots(1, 2, width_ratios=[own, width], sharey=share)
     plot_system(system, left).set_xlabel(straight.said)
     right.tick_params(labelleft=True)
@@ -356,16 +376,22 @@ def plot_modes(
         way = ("\nforward" if rates[-1] > 0 else "\nbackward") if found.has_momentum else ""
         names.append(f"mode {found.number[row]}{way}")
     labels = [straight.said, *with_speeds(names, rates, units)]
-    left, right = straight.room()
-    aside = max(0.0, right + 1.1 - SPACING)  # so that the names do not reach the first shape
     wide = STRETCH if len({*straight.inverted.tolist()}) > 1 else 1.0
     shapes = [wide * shape / np.abs(shape).max() for shape in np.real(found.shape[rows])]  # that of a cord is largest anywhere
-    room = [(-left, SPACING / 2), *[(-SPACING / 2, SPACING / 2)] * (before - 1)]
-    room += [(min(-1, shape.min()) - 0.3, max(1, shape.max()) + 0.3) for shape in shapes]
-    ends = aside + np.cumsum([high - low for low, high in room]) - left
+    reach = [(min(-1, shape.min()) - 0.3, max(1, shape.max()) + 0.3) for shape in shapes]
+    narrow, wider = 0.0, 1.0
+    while wider > 1.05 * narrow and narrow < 2.5:  # names need more room where the columns are narrow
+        narrow = wider
+        left, right = straight.room(narrow)
+        aside = max(0.0, right + 1.1 - SPACING)  # so that the names do not reach the first shape
+        room = [(-left, SPACING / 2), *[(-SPACING / 2, SPACING / 2)] * (before - 1), *reach]
+        ends = aside + np.cumsum([high - low for low, high in room]) - left
+        columns = (ends[-1] + left) / SPACING
+        width = _width(labels, columns)
+        wider = max(narrow, COLUMN * columns / (width - 1.2)) if right > SPACING / 2 else narrow
     ticks = [0.0, *(end - high for end, (_, high) in zip(ends[1:], room[1:], strict=True))]
     height = PLOT_HEIGHT + 1.2 if len(labels) > 1 else 0.75 * PLOT_HEIGHT  # of one column the picture would be a tower
-    ax = axes_or_new(ax, _width(labels, (ends[-1] + left) / SPACING), height)
+    ax = axes_or_new(ax, width, height)
     straight.at_rest(ax)
     if carried is not None:
         most = np.abs(carried.offset).max()  # nothing is drawn of a resonance: NaN
@@ -432,6 +458,7 @@ def plot_carried(found: Response, ax: Axes | None, pins: list[int], unit: SpeedU
         ax.plot([0.0, found.support_radius * np.real(when)], [0.0, 0.0], **ARM)
     straight.finish(ax)
     ax.set_xlabel(f"offset from the axis (m) at {unit.text(found.angular_speed.item())}")
+    ax.locator_params(axis="x", nbins=5)
     return ax
 
 

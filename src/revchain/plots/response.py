@@ -69,9 +69,10 @@ def plot_response(
         y = offset[:, available.index(pin)]
         for side, style in ((1, "-"), (-1, "--")):
             size = np.where(_with_neighbours(np.sign(drive * y.real) == side), np.abs(y), np.nan)
-            label = pin_name(pin) if side == 1 else None
+            label = pin_name(found.system, pin) if side == 1 else None
             ax.plot(unit.of(rate), size, style, color=house(number), linewidth=1.4, label=label)
-    ax.plot(unit.of(rate), support, color="0.6", linewidth=0.8, zorder=0)
+    label = "support" if found.force is None and found.system.size not in chosen else None
+    ax.plot(unit.of(rate), support, color="0.6", linewidth=0.8, zorder=0, label=label)
     for at in found.whirl_speeds if boolean(caller, "resonances", resonances) else ():
         ax.axvline(unit.of(at), **{**AXIS, "zorder": 0})
     ax.set_yscale("log")
@@ -79,7 +80,7 @@ def plot_response(
     if finite.size:
         top = finite.max()
         ax.set_ylim(max(finite.min(), 1e-6 * np.nanmin([top, *support])) / 2, 2 * top)
-    ax.set(xlabel=unit.label, ylabel="distance from axis (m)" + ("; grey: support" if found.force is None else ""))
+    ax.set(xlabel=unit.label, ylabel="distance from axis (m)")
     opposite = "support" if found.force is None else "force"
     ax.plot([], [], "--", color="0.3", linewidth=1.4, label=f"opposite to\nthe {opposite}")
     legend_outside(ax)
@@ -133,7 +134,7 @@ def plot_swing(
         ax.plot(time, found.support_offset[order], color="0.55", linewidth=1.2, label="support")
     for number, pin in enumerate(chosen):
         at, colour = found.offset[order, pin], house(number)
-        label = pin_name(pin) if arc is None or not arc[pin] else f"point {pin}"
+        label = pin_name(found.system, pin)
         drawn = thinned(np.abs(at) if turns else at)
         x, y = (at.real, at.imag) if kind == "path" else (time, at.real)
         ax.plot(x[drawn], y[drawn], color=colour, linewidth=1.2, label=label)
@@ -181,7 +182,8 @@ def plot_campbell(found: Campbell, ax: Axes | None = None, *, speed: str | None 
         at = unit.of(one.angular_speed)
         height = at / one.order if periods else one.order * at
         ax.plot(at, height, "o", color="black", markersize=4)
-        ax.annotate(f"{at:.3g}", (at, height), (4, -4), textcoords="offset points", va="top")
+        box = {"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.5}
+        ax.annotate(f"{at:.3g}", (at, height), (5, -5), textcoords="offset points", va="top", bbox=box)
     per = {"rpm": "frequency (per minute)", "s": "period of the motion (s)"}.get(unit.unit, f"frequency ({unit.unit})")
     ax.set(xlabel=unit.label, ylabel=per, ylim=(0, top), xlim=(0, 1.06 * far))
     return ax

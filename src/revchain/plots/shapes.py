@@ -58,17 +58,24 @@ def plot_drag_shape(shape: DragShape, ax: Axes | None = None, *, view: str | Non
     >>> carousel = rc.Rig(rc.Chain(mass=80.0, length=4.0), support=rc.Support(radius=3.0))
     >>> ax = rc.drag_shape(carousel, rc.Drag(1.0, area=0.6), angular_speed="12 rpm").plot(view="above")
     >>> ax.get_ylabel()
-    'distance in the sense of motion (m)'
+    'distance in the\\nsense of motion (m)'
     """
     chosen = None if view is None else word("revchain.DragShape.plot", "view", view, ("side", "above"))
     if ax is None and chosen is None:
-        figure = new_figure(6.0, 8.0)
+        x, y, z = (float(np.ptp(np.append(along, 0.0))) for along in shape.position.T)
+        least = 0.25 * max(x, y, z)
+        tall = max(z, least), max(1.4 * y, least)
+        scale = min(4.8 / max(x, least), 6.4 / sum(tall))  # inches for a metre
+        figure = new_figure(float(np.clip(scale * x + 1.4, 4.0, 6.2)), scale * sum(tall) + 1.6)
         side: Axes
-        side, above = figure.subplots(2, 1, sharex=True)
+        side, above = figure.subplots(2, 1, height_ratios=tall)
         for each in (side, above):
             each.spines[["top", "right"]].set_visible(False)
         _draw_from(shape, above, "above")
-        _draw_from(shape, side, "side").set_xlabel("")
+        _draw_from(shape, side, "side")
+        ends = min(side.get_xlim()[0], above.get_xlim()[0]), max(side.get_xlim()[1], above.get_xlim()[1])
+        for each in (side, above):
+            each.set_xlim(*ends)
         return side
     return _draw_from(shape, axes_or_new(ax, 6.0, 5.0), chosen or "above")
 
@@ -80,10 +87,12 @@ def _draw_from(shape: DragShape, ax: Axes, view: str) -> Axes:
     ax.plot([0.0, x[-1]], [0.0, across[-1]], **ARM)
     ax.plot(x, across, color=house(0), linewidth=1.4, marker=dots, markersize=3.0)
     ax.plot(x[-1], across[-1], marker="v", color="black", markersize=7.0, clip_on=False)
-    ax.set_aspect("equal", adjustable="datalim")
+    ax.set_aspect("equal")
+    ax.margins(0.08)
     if view == "side":
         ax.axvline(0.0, **AXIS)
-        ax.set(xlabel="outward distance (m)", ylabel="depth below the support (m)")
+        ax.set(xlabel="outward distance (m)", ylabel="depth below\nthe support (m)")
+        keep_room(ax)
         ax.yaxis.set_inverted(True)
         return ax
     ax.plot(0.0, 0.0, marker="+", color="0.4", markersize=9.0)
@@ -94,7 +103,8 @@ def _draw_from(shape: DragShape, ax: Axes, view: str) -> Axes:
     top = float(np.hypot(x[-1], y[-1]))
     ax.annotate("", (top * np.cos(0.3), top * np.sin(0.3)), (top * np.cos(0.1), top * np.sin(0.1)),
                 arrowprops={"arrowstyle": "->", "color": "0.4"})
-    ax.set(xlabel="outward distance (m)", ylabel="distance in the sense of motion (m)")
+    ax.set(xlabel="outward distance (m)", ylabel="distance in the\nsense of motion (m)")
+    keep_room(ax)
     return ax
 
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import sys
+import textwrap
 from collections.abc import Collection, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,12 +13,14 @@ import numpy as np
 
 from ..results.sheet import in_unit
 from ..systems.extras import require
-from ..systems.numbers import Numbers, integer, listed, shown, word
+from ..systems.numbers import Floats, Numbers, integer, listed, shown, word
 from ..systems.units import SPEED_UNITS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+    from ..systems.system import System
 
 PALETTE = ("0072B2", "D55E00", "009E73", "CC79A7", "B01F3C", "6B6B00", "000000")
 """Colours that can be told apart without seeing red or green: four of Okabe and Ito (2008), and darker ones."""
@@ -40,6 +43,7 @@ AXIS: dict[str, Any] = {"color": "0.6", "linestyle": "-.", "linewidth": 0.9, "zo
 """The line of the axis about which a system turns."""
 
 WIDEST = 8.0  # inches, of a new figure
+LABEL_WIDTH = 20  # letters in a line of a legend
 MINUS = "\N{MINUS SIGN}"
 MOST_PINS_AS_DOTS = 40
 MOST_POINTS = 2000  # per curve: about the pixels of a large picture
@@ -99,9 +103,9 @@ def pins_among(caller: str, pins: Iterable[int], available: Collection[int]) -> 
     return numbers
 
 
-def pin_name(pin: int) -> str:
-    """Return the label of the curve of a pin; pin 0 is the free end."""
-    return f"pin {pin}" if pin else "free end"
+def pin_name(system: System, pin: int) -> str:
+    """Return the label of the curve of a pin, with the name of the link that ends there, in short lines."""
+    return plain(textwrap.fill(system._pin_name(pin), LABEL_WIDTH))
 
 
 def new_figure(width: float, height: float) -> Figure:
@@ -156,6 +160,42 @@ def thinned(curve: Numbers) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
         stretch = curve[begin:end]
         chosen.update((int(begin + stretch.argmin()), int(begin + stretch.argmax())))
     return np.array(sorted(chosen), dtype=np.intp)
+
+
+def figure_of(ax: Axes) -> Figure:
+    """Return the figure on which axes lie, however deep in parts of it."""
+    figure = ax.get_figure(root=True)
+    assert figure is not None
+    return figure
+
+
+def moved_by(ax: Axes, x: float = 0.0, y: float = 0.0) -> Any:
+    """Return the coordinates of the data, moved by so many points."""
+    return require("matplotlib.transforms", "plot", "plotting").offset_copy(ax.transData, figure_of(ax), x, y, units="points")
+
+
+def apart(places: Any, size: Any, low: float = -np.inf, high: float = np.inf) -> Floats:
+    """Return the places of texts of these sizes, moved as little as possible (in least squares) until none overlap.
+
+    They stay between the two ends if there is room for all.
+    """
+    at = np.asarray(places, float)
+    order = np.argsort(at, kind="stable")
+    sizes = np.broadcast_to(np.asarray(size, float), at.shape)[order]
+    shift = np.concatenate([[0.0], np.cumsum((sizes[1:] + sizes[:-1]) / 2)])[: at.size]
+    groups: list[tuple[float, int]] = []  # mean and number of places that move together
+    for place in (at[order] - shift).tolist():
+        groups.append((place, 1))
+        while len(groups) > 1 and groups[-2][0] > groups[-1][0]:
+            (one, some), (other, more) = groups[-2:]
+            groups[-2:] = [((one * some + other * more) / (some + more), some + more)]
+    moved = np.empty_like(at)
+    begin = np.array([mean for mean, count in groups for _ in range(count)])
+    if at.size:
+        most = high - sizes[-1] / 2 - shift[-1]
+        begin = np.clip(begin, min(low + sizes[0] / 2, most), most)
+    moved[order] = begin + shift
+    return moved
 
 
 def keep_room(ax: Axes, share: float = 0.35) -> None:

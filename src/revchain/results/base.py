@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Collection, Iterator, Sequence
+from dataclasses import replace
 from itertools import repeat
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, Self, TypeVar, overload
 
@@ -12,6 +13,7 @@ import numpy as np
 
 from ..systems.drawing import Plot
 from ..systems.numbers import integer, read_only, shown
+from ..systems.system import System
 from ..systems.unchangeable import Unchangeable
 from .kinds import KINDS, restored
 from .sheet import Column, Sheet, as_dataframe, as_dataset, as_dict, as_html, as_rows, as_text, in_speed_unit
@@ -224,6 +226,20 @@ class Result(Unchangeable):
         """What a printed table shows, with its speeds in the unit in which the question was asked."""
         return in_speed_unit(self._sheet(brief=True), self._speed_unit)
 
+    def _full(self) -> Sheet:
+        """All data for dictionaries and files: the columns, and the facts after the system in numbers."""
+        sheet, system = self._sheet(), getattr(self, "system", None)
+        if not isinstance(system, System):
+            return sheet
+
+        def named(axis: str, number: int) -> str:
+            if axis == "pin":
+                return system._pin_name(int(np.atleast_1d(getattr(self, "pins", np.arange(number + 1)))[number]))
+            return system._link_name(number) if axis == "link" else str(number + 1) if axis == "motion" else ""
+
+        numbers = {"system": type(system).__name__, **system._data()}  # as `to_dict`
+        return replace(sheet, facts={"system": numbers, **sheet.facts}, named=named)
+
     def _state(self) -> dict[str, Any]:
         """All parts, and the other fields computed so far."""
         parts = {name: getattr(self, name) for name, field in self._fields.items() if field.part and hasattr(self, name)}
@@ -235,15 +251,19 @@ class Result(Unchangeable):
         Returns
         -------
         dict
-            The data. They can be written as JSON unless a number is infinite or NaN.
+            The data. They can be written as JSON unless a number is infinite or NaN. The entry ``system`` holds the system
+            in numbers, as its own `to_dict` returns it; the `from_dict` of its class makes the system again.
 
         Examples
         --------
         >>> import revchain as rc
         >>> rc.modes(rc.Chain(weight=[1.0, 3.0], length=1.0)).to_dict()["modes"][0]["conical_height"]
         1.5
+        >>> m = rc.modes(rc.Chain(mass=[1.0, 3.0], length=1.0))
+        >>> rc.Chain.from_dict(m.to_dict()["system"]) == m.system
+        True
         """
-        return as_dict(self._sheet())
+        return as_dict(self._full())
 
     def to_dataframe(self) -> DataFrame:
         """Return a pandas table with one row for each row of the result.
@@ -264,7 +284,7 @@ class Result(Unchangeable):
         >>> rc.modes(rc.Chain(weight=[1.0, 3.0], length=1.0)).to_dataframe()["conical_height"].tolist()
         [1.5, 0.5]
         """
-        return as_dataframe(self._sheet())
+        return as_dataframe(self._full())
 
     def to_xarray(self) -> Dataset:
         """Return all data as a labelled data set.
@@ -272,7 +292,7 @@ class Result(Unchangeable):
         Returns
         -------
         xarray.Dataset
-            The data set, with arrays of any number of axes.
+            The data set, with arrays of any number of axes. The attribute ``system`` holds the system in numbers, as JSON.
 
         Raises
         ------
@@ -285,7 +305,46 @@ class Result(Unchangeable):
         >>> rc.modes(rc.Chain(weight=[1.0, 3.0], length=1.0)).to_xarray()["shape"].shape
         (2, 3)
         """
-        return as_dataset(self._sheet())
+        return as_dataset(self._full())
+
+    def to_excel(self, path: str | os.PathLike[str]) -> None:
+        """Write the result to a workbook for a spreadsheet program.
+
+        The first sheet describes the system and the result. Each table has a sheet of its own, with units in its headings:
+        the links, the rows of this result, and each quantity that has a number for each pin or link.
+
+        Parameters
+        ----------
+        path : path-like
+            Path that ends in ``.xlsx``.
+
+        Raises
+        ------
+        ValueError
+            If the path has another ending, or a table has more rows or columns than a sheet can have.
+        ImportError
+            If openpyxl is not installed; the message says how to install it.
+        OSError
+            If the file cannot be written (the error is also a ValueError). An existing file stays until the new one is
+            complete.
+
+        Notes
+        -----
+        Numbers have 16 digits, angles are in radians. Infinity is the text ``inf``; NaN is an empty cell.
+        Cost: about 10 microseconds a cell.
+
+        Examples
+        --------
+        >>> import revchain as rc, tempfile, pathlib
+        >>> path = pathlib.Path(tempfile.mkdtemp()) / "modes.xlsx"
+        >>> rc.modes(rc.Chain(mass=[1.0, 3.0], length=1.0, names=["bob", "ball"])).to_excel(path)
+        >>> import openpyxl
+        >>> openpyxl.load_workbook(path).sheetnames
+        ['system', 'links', 'modes', 'modes nodes', 'modes shape']
+        """
+        from .excel import name_of, save_workbook
+
+        save_workbook(f"revchain.{type(self).__name__}.to_excel", path, {name_of(self): self})
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the result to a file that `revchain.load` reads.

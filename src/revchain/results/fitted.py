@@ -124,7 +124,7 @@ class Fitted(Result, row="datum", title="Fitted: {summary}", notes=("{_lines}",)
         fact=True,
     )
 
-    description: Field[str] = Field("The new system in words.", lambda f: f.system.describe(), fact=True, column="system")
+    description: Field[str] = Field("The new system in words.", lambda f: f.system.describe(), fact=True)
     summary: Field[str] = Field("How many data were fitted to how many speeds, in words.", lambda f: f._words())
 
     def __getitem__(self, path: str) -> float:

@@ -396,7 +396,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
     sensitivity: Field[Sensitivity] = Field(
         "Derivatives with respect to each datum. Cost: 2 microseconds per link and mode.", lambda m: _sensitivity(m)
     )
-    description: Field[str] = Field("The system in words.", lambda m: m.system.describe(), fact=True, column="system")
+    description: Field[str] = Field("The system in words.", lambda m: m.system.describe(), fact=True)
     summary: Field[str] = Field("What was found, in words.", lambda m: _summary(m))
 
     def __len__(self) -> int:

@@ -160,13 +160,13 @@ class Response(Result, Moving):
                 f"pull on support{' (N)' if self.system.by_mass else ''}", 5,
             ),
             self._error_column(),
-            Column("conical_height", self.conical_height.reshape(-1)),
+            Column("conical_height", self.conical_height.reshape(-1), unit="m"),
             Column("resonant", self.resonant.reshape(-1)),
             Column("reversed", self.reversed.reshape(-1)),
         ]
         if self.support_force_error is not None:
             columns.append(Column("support_force_error", self.support_force_error.reshape(-1)))
-        columns.append(Column("offset", offset, axes=("pin",)))
+        columns.append(Column("offset", offset, axes=("pin",), unit="m"))
         drive = "support" if self.force is None else "force"
         notes = [
             f"ahead of the {drive}; negative: it lags" if damped else f"negative: opposite to the {drive}; nan: at a resonance",

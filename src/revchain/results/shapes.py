@@ -593,7 +593,8 @@ def _arrays_of_each(name: str, given: tuple[str, ...] = ()) -> Field[Any]:
             return given or ("place",)
         return ("link" if len(getattr(shapes[0], name)) == len(shapes[0].inclination) else "pin",)
 
-    return _of_each(f"`SteadyShape.{name}` of each shape.", lambda shape: getattr(shape, name), axes=axes)
+    unit = "force" if name in ("tension", "lower_pull", "upper_pull") else "rad" if name.endswith("inclination") else "m"
+    return _of_each(f"`SteadyShape.{name}` of each shape.", lambda shape: getattr(shape, name), axes=axes, unit=unit)
 
 
 class SteadyShapes(Results[SteadyShape], Moving, row="shape", title="{_heading}", notes=("{_note}", "{_out_of_plane}")):

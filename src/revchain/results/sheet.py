@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import math
+import re
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from itertools import repeat
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 MOST_ROWS = 20
+MOST_COLUMNS = 1000  # of an array whose numbers get columns of their own
 
 
 class Column(NamedTuple):
@@ -94,6 +97,8 @@ class Sheet:
         Whether everything was found and proved.
     spread : bool
         Whether a long table prints evenly spaced rows instead of the first ones.
+    named : callable, optional
+        Function of an axis, such as ``"pin"``, and a number along it that returns its name, such as ``"free end"``.
     """
 
     row: str
@@ -103,6 +108,7 @@ class Sheet:
     notes: list[str] = field(default_factory=list)
     good: bool = True
     spread: bool = False
+    named: Callable[[str, int], str] | None = None
 
     def __len__(self) -> int:
         return len(self.columns[0].values) if self.columns else 0
@@ -169,12 +175,12 @@ def digits(number: float, count: int) -> str:
     return f"{number:#.{count}g}".removesuffix(".")
 
 
-def cells(sheet: Sheet) -> tuple[list[str], list[list[str]], list[str]]:
-    """Headings, the printed rows as text, and the lines below."""
+def cells(sheet: Sheet, most: int = MOST_ROWS) -> tuple[list[str], list[list[str]], list[str]]:
+    """Headings, the printed rows (at most so many) as text, and the lines below."""
     size = len(sheet)
     rows: Any = range(size)
-    if size > MOST_ROWS:
-        rows = np.linspace(0, size - 1, MOST_ROWS).round().astype(int).tolist() if sheet.spread else range(MOST_ROWS)
+    if size > most:
+        rows = np.linspace(0, size - 1, most).round().astype(int).tolist() if sheet.spread else range(most)
     headings, columns = [], []
     for column in sheet.columns:
         if column.heading:
@@ -182,7 +188,7 @@ def cells(sheet: Sheet) -> tuple[list[str], list[list[str]], list[str]]:
             columns.append(column.texts(rows))
     if not headings:
         return [], [], sheet.notes
-    notes = [f"and {size - MOST_ROWS:,} more", *sheet.notes] if size > MOST_ROWS else sheet.notes
+    notes = [f"and {size - most:,} more", *sheet.notes] if size > most else sheet.notes
     return headings, [*map(list, zip(*columns, strict=True))], notes
 
 
@@ -245,15 +251,44 @@ def finite(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
+def in_columns(sheet: Sheet, most: int = MOST_COLUMNS) -> list[Column]:
+    """The columns, with one for each pin, link or motion of an array that has a number for each.
+
+    Complex numbers get a column for each part. Arrays along another axis, or with more than `most` numbers in a row, stay as
+    they are.
+    """
+    columns: list[Column] = []
+    for column in sheet.columns:
+        values = np.asarray(column.values) if isinstance(column.values, np.ndarray) else None
+        parts = [column]
+        if values is not None and values.ndim == 2 and values.shape[1] <= most and sheet.named is not None:
+            places = [sheet.named(column.axes[0], number) for number in range(values.shape[1])]
+            if all(places):
+                key = [re.sub(r"\W+", "_", place).strip("_") for place in places]
+                parts = [
+                    column._replace(name=f"{column.name}_{key[k]}", values=values[:, k], heading=f"{column.name}, {place}", axes=())
+                    for k, place in enumerate(places)
+                ]
+        for part in parts:
+            if part.axes or not np.iscomplexobj(part.values):
+                columns.append(part)
+                continue
+            for kind, half in (("real", np.real(part.values)), ("imaginary", np.imag(part.values))):
+                heading = part.heading and f"{part.heading}, {kind} part"
+                columns.append(part._replace(name=f"{part.name}_{kind}", values=half, heading=heading, shown=None))
+    return columns
+
+
 def as_csv(sheet: Sheet) -> str:
-    """The table as CSV: one line for each row, with all digits; arrays as numbers separated by blanks."""
+    """The table as CSV: one line for each row, with all digits, and a column for each pin; other arrays separated by blanks."""
     import csv
     import io
 
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow([column.name for column in sheet.columns])
-    for row in zip(*[plain(column.values) for column in sheet.columns], strict=True):
+    columns = in_columns(sheet)
+    writer.writerow([column.name for column in columns])
+    for row in zip(*[plain(column.values) for column in columns], strict=True):
         writer.writerow([" ".join(map(repr, value)) if isinstance(value, list) else value for value in row])
     return text.getvalue()
 

@@ -49,12 +49,13 @@ def text_of(path: str | os.PathLike[str]) -> str:
 
 
 @contextmanager
-def opened(path: str | os.PathLike[str]) -> Iterator[tuple[Any, list[Problem]]]:
-    """The raw content of a .toml or .json file, and its common errors of syntax, which are repaired.
+def opened(path: str | os.PathLike[str]) -> Iterator[tuple[Any, list[Problem], str]]:
+    """The raw content of a .toml or .json file, its common errors of syntax, which are repaired, and its text.
 
     Each problem found in this file inside the with statement gets its line and column.
     """
-    lines, problems = text_of(path).split("\n"), list[Problem]()
+    text = text_of(path)
+    lines, problems = text.split("\n"), list[Problem]()
     source = os.fspath(path)
     try:
         raw, moved = (_json if is_json(source) else _toml)(lines, problems)
@@ -64,7 +65,7 @@ def opened(path: str | os.PathLike[str]) -> Iterator[tuple[Any, list[Problem]]]:
         reason = Problem(0, 0, "", TOO_DEEP if isinstance(error, RecursionError) else f"cannot be read: {error}")
         raise SceneError(source, problems=sorted(problems) or [reason]) from None
     try:
-        yield raw, problems
+        yield raw, problems, text
     except SceneError as error:
         if error.source != source:
             raise

@@ -12,6 +12,7 @@ from msgspec import UNSET, UnsetType, json, to_builtins
 
 from .. import _core
 from ..results.base import asked_in
+from ..results.files import naming, written_aside
 from ..systems.numbers import text
 from ..systems.units import speed_unit
 from . import parse
@@ -276,6 +277,53 @@ class Scene(Tables, frozen=True, weakref=True):
         """
         return {question: self._answer(question, {}) for question in self._questions}
 
+    def report(self, path: str | os.PathLike[str]) -> None:
+        """Answer all questions of the scene and write a report, to hand to a colleague.
+
+        The report is one HTML page that needs no other file and no network: the system in words and in a scale drawing, each
+        answer with its table, bounds and picture, what is proved, the text of the scene, and how to repeat it.
+
+        Parameters
+        ----------
+        path : path-like
+            Path that ends in ``.html``.
+
+        Raises
+        ------
+        ValueError
+            If the path has another ending.
+        SceneError
+            If a function refuses the system or its arguments.
+        ImportError
+            If matplotlib is not installed; the message says how to install it.
+        OSError
+            If the file cannot be written (the error is also a ValueError). An existing file stays until the new one is
+            complete.
+
+        Notes
+        -----
+        Cost: that of the answers, and about half a second for each picture.
+
+        Examples
+        --------
+        >>> import revchain as rc, tempfile, pathlib
+        >>> path = pathlib.Path(tempfile.mkdtemp()) / "report.html"
+        >>> scene = {"title": "Double pendulum", "links": [{"mass": 1, "length": 0.5, "repeat": 2}]}
+        >>> rc.Scene.from_dict(scene).report(path)
+        >>> "<h1>Double pendulum</h1>" in path.read_text(encoding="utf-8")
+        True
+        """
+        from .report import check_path, page_of
+
+        check_path("revchain.Scene.report: path", path)
+        with naming(path), written_aside(path) as [aside]:
+            aside.write_text(page_of(self, self.answers()), encoding="utf-8")
+
+    def _file(self) -> tuple[str, str]:
+        """The name and the text of the file of the scene; of one from a dictionary, its data as JSON."""
+        made = self._made()
+        return os.path.basename(made.get("file", "scene.json")), made.get("text") or json.format(json.encode(self.to_dict()), indent=2).decode() + "\n"
+
     def _answer(
         self, question: str, changed: dict[str, Any], progress: _core.Progress | None = None, *, options: bool = False
     ) -> Any:
@@ -440,9 +488,9 @@ def load_scene(path: str | os.PathLike[str]) -> Scene:
 
 def read(path: str | os.PathLike[str], changed: dict[str, Any]) -> Scene:
     """Read the scene of a file, with other values of some of its keys."""
-    with parse.opened(path) as (raw, problems):
+    with parse.opened(path) as (raw, problems, text):
         scene = Scene._read(raw | changed if isinstance(raw, dict) else raw, os.fspath(path), problems)
-    _MADE[id(scene)][1]["file"] = os.fspath(path)
+    _MADE[id(scene)][1].update(file=os.fspath(path), text=text)
     return scene
 
 

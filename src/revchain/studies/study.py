@@ -303,7 +303,7 @@ def load_study(path: str | os.PathLike[str]) -> Study:
     >>> rc.load_study(path).points
     11
     """
-    with parse.opened(path) as (raw, problems):
+    with parse.opened(path) as (raw, problems, _):
         return Study._read(raw, os.fspath(path), Path(path).parent, problems)
 
 

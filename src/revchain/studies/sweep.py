@@ -18,7 +18,9 @@ from zipfile import BadZipFile
 import numpy as np
 from numpy.typing import NDArray
 
+from ..results.excel import MOST_LINES, Page, write_workbook
 from ..results.files import OutputError, hdf5_file, naming, written_aside
+from ..results.sheet import Column
 from ..systems.extras import require
 from ..systems.numbers import count as checked_count
 from ..systems.numbers import file_path, shown
@@ -32,7 +34,9 @@ if TYPE_CHECKING:
 _CALLER = "revchain.sweep"
 BATCH, ONE_BY_ONE, MOST_CHUNKS = 65536, 100, 10_000  # points in a chunk of a batch, in another chunk; number of chunks
 CHUNKS = "[0-9]*-[0-9]*.npz"
-PACKAGES = {".csv": ["pyarrow.csv"], ".parquet": ["pyarrow.parquet"], ".nc": ["h5py", "h5netcdf"]}
+PACKAGES = {
+    ".csv": ["pyarrow.csv"], ".parquet": ["pyarrow.parquet"], ".nc": ["h5py", "h5netcdf"], ".xlsx": ["openpyxl"],
+}  # fmt: skip
 
 
 def sweep(
@@ -51,8 +55,8 @@ def sweep(
     study : Study, path-like or dict
         The study, its file, or its data.
     out : path-like, optional
-        File for the results: ``.nc`` (netCDF, which xarray reads), or a table with a row for each point, ``.csv`` or
-        ``.parquet``. It is written when all points are done. Until then finished chunks are stored in the folder
+        File for the results: ``.nc`` (netCDF, which xarray reads), or a table with a row for each point, ``.csv``,
+        ``.parquet`` or ``.xlsx`` (a workbook, up to 1,048,575 points). It is written when all points are done. Until then finished chunks are stored in the folder
         ``OUT.partial`` beside it. After an interruption or a kill, the same call continues without recomputing finished
         chunks.
     executor : concurrent.futures.Executor, optional
@@ -119,9 +123,9 @@ def sweep(
     chunk = None if chunk is None else checked_count(_CALLER, "chunk", chunk)
     workers = _processors() if workers is None else checked_count(_CALLER, "workers", workers)
     require("xarray", "sweep", _CALLER)
-    if out is not None:
-        check_ending(out)
     plan = study._plan("study")
+    if out is not None:
+        check_output(out, plan.points)
     if chunk is None:
         few = max(min(ONE_BY_ONE, plan.points // (4 * workers)), plan.points // MOST_CHUNKS, 1)
         chunk = few if plan.links is None else BATCH
@@ -243,13 +247,15 @@ def _remove(folder: Path) -> None:
             folder.rmdir()
 
 
-def check_ending(path: str | os.PathLike[str]) -> None:
-    """Raise an error if the ending of an output is unknown, or if a package that writes it is missing."""
+def check_output(path: str | os.PathLike[str], points: int) -> None:
+    """Raise an error if an output cannot hold so many points, has an unknown ending, or lacks a package that writes it."""
     ending = Path(file_path(_CALLER, "the output", path)).suffix.lower()
     if ending not in PACKAGES:
-        raise ValueError(f"{os.fspath(path)} must end in .csv, .parquet or .nc")
+        raise ValueError(f"{os.fspath(path)} must end in .csv, .parquet, .xlsx or .nc")
+    if ending == ".xlsx" and points > MOST_LINES:
+        raise ValueError(f"{os.fspath(path)}: a sheet has at most {MOST_LINES:,} rows, got {points:,} points; write .csv or .nc")
     for module in PACKAGES[ending]:
-        require(module, "sweep", f"a {ending} file")
+        require(module, "excel" if ending == ".xlsx" else "sweep", f"a {ending} file")
 
 
 def write(found: Dataset, path: Path) -> None:
@@ -258,6 +264,8 @@ def write(found: Dataset, path: Path) -> None:
         h5netcdf, backends = (require(name, "sweep", "a .nc file") for name in ("h5netcdf", "xarray.backends"))
         with hdf5_file(path) as guarded, h5netcdf.File(guarded, "w") as target:
             found.dump_to_store(backends.H5NetCDFStore(target))
+    elif path.suffix.lower() == ".xlsx":
+        write_workbook(path, _pages(found), path)
     else:
         table = require("pyarrow", "sweep", "a table").table(columns(found)).replace_schema_metadata(found.attrs)
         if path.suffix.lower() == ".csv":
@@ -266,6 +274,23 @@ def write(found: Dataset, path: Path) -> None:
             require("pyarrow.parquet", "sweep", "a .parquet file").write_table(table, path)
     with open(path, "r+b") as file:
         os.fsync(file.fileno())  # before the chunks are removed
+
+
+def _pages(found: Dataset) -> list[Page]:
+    """The sheets of a workbook: what the study is, and the table of points, with units."""
+    from .. import __version__
+
+    study = json.loads(found.attrs["study"])
+    rows = [("title", found.attrs["title"]), ("revchain", __version__), ("points", int(found["status"].size))]
+    rows += [(f"vary {path}", json.dumps(values)) for path, values in study["vary"].items()]
+    rows += [("study", found.attrs["study"])]
+    about = Page("study", [Column("", [row[k] for row in rows], heading) for k, heading in enumerate(("what", "value"))])
+    units = {str(name): str(found[name].attrs.get("units", "")) for name in found.variables}
+    points = []
+    for name, values in columns(found).items():
+        of = max((known for known in units if name == known or name.startswith(f"{known}_")), key=len, default="")
+        points.append(Column(name, values, unit=units.get(of, "")))
+    return [about, Page("points", points)]
 
 
 # ---- labelled arrays

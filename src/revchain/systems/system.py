@@ -100,6 +100,27 @@ class System(Unchangeable):
     def _from_state(cls, state: Any) -> Self:
         raise NotImplementedError
 
+    def _pin_name(self, pin: int) -> str:
+        """Name of a pin for legends and tables, with the name of the link that ends there."""
+        last = self.size
+        if self._is_held and pin in (0, last) and last:
+            return "lower end" if pin == 0 else "upper end"
+        if not last:  # a cord
+            return f"point {pin}" if pin else "lower end" if self._is_held else "free end"
+        if pin == last:
+            return "support"
+        names = self._base.names
+        name = names[pin] if names is not None else ""
+        if pin == 0:
+            return f"free end of {name}" if name else "free end"
+        return f"pin {pin}, {'above' if self._is_held or self._stands[pin] else 'below'} {name}" if name else f"pin {pin}"
+
+    def _link_name(self, link: int) -> str:
+        """Name of a link for legends and tables, with its number."""
+        names = getattr(self._base, "names", None) or ()
+        name = names[link] if link < len(names) else ""
+        return f"link {link}, {name}" if name else f"link {link}"
+
     def describe(self) -> str:
         """Return a description of the system in words, from the support down.
 
