@@ -64,20 +64,6 @@ def _of_windows(doc: str, name: str, end: int, **column: Any) -> Field[Any]:
     return Field(doc, lambda w: np.array([getattr(each, name)[end] for each in w], float), **column)
 
 
-def _speed_of_windows(which: str, word_of_end: str, end: int) -> Field[Any]:
-    """The speed at one end of each window, which is printed in the unit asked for."""
-
-    def heading(windows: Any) -> str:
-        return f"{word_of_end} {SPEED_UNITS[windows.unit][0]} ({windows.unit})"
-
-    def shown_in_unit(windows: Any) -> Floats:
-        speed, per = getattr(windows, f"{which}_speed"), SPEED_UNITS[windows.unit][1]
-        return np.asarray(per / speed if windows.unit == "s" else per * speed)
-
-    doc = f"Speed at the {which} of each window, rad/s; printed in `unit`."
-    return _of_windows(doc, "angular_speed", end, heading=heading, unit="rad/s", shown=shown_in_unit)
-
-
 class StabilityWindows(Results[StabilityWindow], row="window", title="{_title_words}"):
     """The windows of stability of a branch, in the order of its arc, or of all branches of a diagram.
 
@@ -106,8 +92,8 @@ class StabilityWindows(Results[StabilityWindow], row="window", title="{_title_wo
     verdict: Field[tuple[str, ...]] = Field(
         "Verdict of each window.", lambda w: tuple(each.verdict for each in w), heading="verdict"
     )
-    start_speed = _speed_of_windows("start", "from", 0)
-    end_speed = _speed_of_windows("end", "to", 1)
+    start_speed = _of_windows("Speed at the start, rad/s.", "angular_speed", 0, heading="from speed", unit="rad/s")
+    end_speed = _of_windows("Speed at the end, rad/s.", "angular_speed", 1, heading="to speed", unit="rad/s")
     start_height = _of_windows("Conical height at the start, m.", "conical_height", 0, heading="from height", unit="m")
     end_height = _of_windows("Conical height at the end, m.", "conical_height", 1, heading="to height", unit="m")
     start_arc = _of_windows("`Branch.arc` at the start.", "arc", 0, axes=())
@@ -116,7 +102,6 @@ class StabilityWindows(Results[StabilityWindow], row="window", title="{_title_wo
         "`StabilityWindow.change` of each window.", lambda w: tuple(each.change for each in w), heading="change at the end"
     )
     branches: Field[int] = Field("Number of branches.", fact=True)
-    unit: Field[str] = Field("Unit of the printed speeds: ``'rad/s'``, ``'rpm'``, ``'Hz'`` or ``'s'`` (the period).")
 
     @property
     def _title_words(self) -> str:
@@ -373,10 +358,10 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         unstable 0.1 end
         """
         caller = "revchain.Branch.stability_windows"
-        unit = word(caller, "speed", speed or self._speed_unit or "rad/s", SPEED_UNITS)
+        unit = self._speed_unit if speed is None else word(caller, "speed", speed, SPEED_UNITS)
         found = self._listed_windows(caller, frame, tolerance, samples)
-        given = {"frame": frame, "branch": None, "mode": None, "branches": 1, "unit": unit}
-        return StabilityWindows._made(None, _items=tuple(found), **given)
+        given = {"frame": frame, "branch": None, "mode": None, "branches": 1}
+        return asked_in(unit, StabilityWindows._made(None, _items=tuple(found), **given))
 
     def _listed_windows(self, caller: str, frame: str, tolerance: float, samples: int) -> list[StabilityWindow]:
         """The windows of stability."""
@@ -683,18 +668,18 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
         1 spectrally stable 4.0 end
         """
         caller = "revchain.Branches.stability_windows"
-        unit = word(caller, "speed", speed or self._speed_unit or "rad/s", SPEED_UNITS)
+        unit = self._speed_unit if speed is None else word(caller, "speed", speed, SPEED_UNITS)
         each = [branch._listed_windows(caller, frame, tolerance, samples) for branch in self]
         numbers = np.repeat(np.arange(len(self)), [len(windows) for windows in each])
-        return StabilityWindows._made(
+        found = StabilityWindows._made(
             None,
             _items=tuple(window for windows in each for window in windows),
             frame=frame,
             branch=numbers,
             mode=tuple(self.mode[k] for k in numbers),
             branches=len(self),
-            unit=unit,
         )
+        return asked_in(unit, found)
 
     def _sheet(self, brief: bool = False) -> Sheet:
         """The branches; unless `brief` all their points, with the branches as a fact."""

@@ -139,7 +139,8 @@ def in_speed_unit(sheet: Sheet, unit: str | None) -> Sheet:
             values = np.asarray(column.values if column.shown is None else column.shown, np.float64)
             shown = in_unit(values, unit)
             speeds = values if speeds is None else speeds
-            words = quantity if words == "speed" else words if quantity == "speed" or quantity in words else f"{words}, as {quantity}"
+            plain = re.fullmatch("(from |to )?speed", words)
+            words = words.replace("speed", quantity) if plain else words if quantity == "speed" or quantity in words else f"{words}, as {quantity}"
             column = column._replace(heading=f"{words} ({unit})", shown=shown)
         elif heading and speeds is not None and (column.name == "rpm" or (column.unit == unit == "s" and _is_period(column, speeds))):
             column = column._replace(heading="")

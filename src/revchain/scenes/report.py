@@ -87,7 +87,7 @@ def further_sheets(found: Any) -> list[Sheet]:
         if part is not None and (name != "other" or len(part)):
             sheets.append(part._sheet())
     if getattr(found, "_stability", False):
-        sheets.append(found.stability_windows()._sheet(brief=True))
+        sheets.append(found.stability_windows()._printed())
     if isinstance(found, Response) and found.angular_speed.size == 1:
         sheets.append(_pins(found))
     return sheets
@@ -274,7 +274,7 @@ def finding(found: Any) -> str:
     if isinstance(found, Campbell) and found.crossings:
         each = [f"{one.order}n meets frequency {one.motion} at {one.rpm:.4g} rpm" for one in found.crossings[:MOST_CROSSINGS]]
         return f"Possible resonances: {'; '.join(each)}{'; and more' * (len(found.crossings) > MOST_CROSSINGS)}."
-    heading = found._sheet(brief=True).heading
+    heading = found._printed().heading
     text = heading.split("; with links above")[0].split(", also with links above")[0]
     return _sentence(re.sub(r"^(Branches|Campbell diagram): ", "", text)) if text else ""
 
@@ -496,7 +496,7 @@ def _answer(scene: Scene, question: str, found: Any, units: str) -> str:
         f'<li class="{verdict.kind}"><b>{WORDS[verdict.kind]}.</b> {escape(verdict.sentence)}</li>' for verdict in verdicts(found)
     )
     parts.append(f'<ul class="verdicts">{said}</ul>' if said else "")
-    sheets = [found._sheet(brief=True), *further_sheets(found)]
+    sheets = [found._printed(), *further_sheets(found)]
     for sheet in sheets:
         parts.append(_sheet(in_radians(sheet) if units == "rad" else sheet))
     notes = [in_file(note, scene._bodies()) if scene.order == "support first" else note for note in sheets[0].notes]
