@@ -232,7 +232,8 @@ class Result(Unchangeable):
                 return system._pin_name(int(np.atleast_1d(getattr(self, "pins", np.arange(number + 1)))[number]))
             return system._link_name(number) if axis == "link" else str(number + 1) if axis == "motion" else ""
 
-        return replace(sheet, facts={"system": system.to_dict(), **sheet.facts}, named=named)
+        numbers = {"system": type(system).__name__, **system._data()}  # as `to_dict`
+        return replace(sheet, facts={"system": numbers, **sheet.facts}, named=named)
 
     def _state(self) -> dict[str, Any]:
         """All parts, and the other fields computed so far."""

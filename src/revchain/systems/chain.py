@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from .. import _core
 from .numbers import Floats, integer, link_arrays, mass_or_weight, real, refuse_beyond_memory, shown, word
 from .numbers import count as checked_count
-from .system import System, plain
+from .system import System
 
 Order = Literal["free end first", "support first"]
 _FREE_END: Literal["free end first"] = "free end first"
@@ -576,7 +576,7 @@ class Chain(System):
         }
         way = slice(None, None, 1 if self.order == _FREE_END else -1)
         data: dict[str, Any] = {"links": size}
-        data |= {name: plain(column[way] if column.ndim else column) for name, column in columns.items()}
+        data |= {name: (column[way] if column.ndim else column).tolist() for name, column in columns.items()}
         order = None if self.order == _FREE_END else self.order
         more = {"names": self._names and list(self._names[way]), "taper": self.taper, "order": order}
         return data | {name: value for name, value in more.items() if value is not None}
