@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from .. import _core
 from ..systems.numbers import Floats, Whole, count, height_of, one_positive, place_of, word
 from ..systems.units import SPEED_UNITS
-from .base import Field, Result, Results, UnavailableError
+from .base import Field, Result, Results, UnavailableError, asked_in
 from .moving import Moving
 from .shapes import FORCES, SteadyShape, forced, is_driven, shape_made, stacked
 from .sheet import Column, Sheet, as_dataframe, as_rows
