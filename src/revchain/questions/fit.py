@@ -57,7 +57,8 @@ def fit(
         pair is a speed and its standard uncertainty, in the same unit or relative such as ``"1 %"``, also as one text
         ``"10.9 s +- 0.1 s"``:
         ``{1: ("10.9 s", "0.1 s"), 2: (3.8, 0.05)}``. Give uncertainties for all speeds or for none. Without them all speeds
-        have equal relative weight, and their uncertainty is estimated from the residuals.
+        have equal relative weight, and their uncertainty is estimated from the residuals. Residuals are those of what
+        was measured: where a period is given, of the period.
     vary : str, list of str or dict
         Paths of the data that may change, as in `tune`, such as ``"links[load].mass"``; ``"gravity"`` is one of them. A
         dictionary also gives a start value, which is needed if the support is firm or a mass is 0:
@@ -134,7 +135,7 @@ def fit(
     if system._is_held:
         straight(_CALLER, of, g)
     paths, starts = _varied(vary)
-    number, speed, deviation = _measurements(measured)
+    number, speed, deviation, timed = _measurements(measured)
     if len(paths) > len(number):
         raise ValueError(
             f"{_CALLER}: vary has {len(paths)} data for {len(number)} measured speed{'s' * (len(number) > 1)}; vary at most "
@@ -148,16 +149,22 @@ def fit(
             f"{_CALLER}: measured: modes are counted from 1; only a rig with flywheels has backward modes, -1 the slowest, "
             f"got {number.min()}"
         )
-    model = _Model(system, data, number, speed, np.abs(speed if deviation is None else deviation), g)
+    model = _Model(system, data, number, speed, timed, np.abs(speed if deviation is None else deviation), g)
     found = _fitted(model, *_least(model, np.array([_start(*each) for each in zip(data, starts, strict=True)])), deviation)
     return asked_in(speed_unit(list(measured.values())), found)
 
 
 class _Model:
-    """Speeds and their residuals as functions of unbounded variables that stand for the data."""
+    """Speeds and their residuals as functions of unbounded variables that stand for the data.
 
-    def __init__(self, system: Any, data: list[Datum], number: Whole, speed: Floats, deviation: Floats, gravity: float):
-        self.system, self.data, self.number, self.gravity = system, data, number, gravity
+    Residuals are those of what was measured: speeds, or periods where `timed` is true. In terms of the speed n and the
+    measured m that of a period is (n - m) m / n, in units of the same deviation.
+    """
+
+    def __init__(
+        self, system: Any, data: list[Datum], number: Whole, speed: Floats, timed: Any, deviation: Floats, gravity: float
+    ):
+        self.system, self.data, self.number, self.timed, self.gravity = system, data, number, timed, gravity
         self.measured, self.scale = speed, float((deviation / np.abs(speed)).min())
         self.deviation = deviation / self.scale  # the tolerances of the search are for residuals that are parts of a speed
         self.kept: tuple[bytes, Any] = (b"", None)
@@ -181,25 +188,30 @@ class _Model:
     def off(self, free: Floats) -> Floats:
         """(Computed - measured) / uncertainty; NaN if there is no such system, and the search then steps back."""
         try:
-            return (self.at(free)[1].speed - self.measured) / self.deviation
+            speed = self.at(free)[1].speed
         except ValueError:
             return np.full(len(self.number), np.nan)
+        return (speed - self.measured) * self._part(speed) / self.deviation
+
+    def _part(self, speed: Floats) -> Floats:
+        """Measured over computed speed where a period was measured, else 1."""
+        return np.where(self.timed, self.measured / speed, 1.0)
 
     def slopes(self, free: Floats) -> Floats:
         """The derivatives of the deviations `off`, shape (m, p): m measurements, p data."""
         _, there = self.at(free)
-        rates = self._rates(there)
+        rates, per = self._rates(there), self._part(there.speed) ** 2 / self.deviation
         columns = []
         for k, (datum, value) in enumerate(zip(self.data, self.values(free), strict=True)):
             if datum.path == "gravity" and there.modes.system._fixes_gravity is None:  # speeds rise with its root
-                columns.append(0.5 * there.speed / self.deviation)
+                columns.append(0.5 * there.speed * per)
                 continue
             if datum.rate is None or rates is None:
                 columns.append(self._difference(free, k))
                 continue
             name, part = datum.rate
             column = rates[name] @ part if rates[name].ndim == 2 else rates[name] * part
-            columns.append(column * _inner(datum, value) / self.deviation)
+            columns.append(column * _inner(datum, value) * per)
         return np.column_stack(columns)
 
     def _rates(self, there: Speeds) -> Any:
@@ -305,7 +317,8 @@ def _fitted(model: _Model, free: Floats, converged: bool, known: _Known, deviati
     if deviation is None:
         spread = left / freedom if freedom else math.nan
         covariance, deviation = covariance * spread, np.abs(model.measured) * math.sqrt(spread)
-        chi_square = None
+        with np.errstate(divide="ignore", invalid="ignore"):
+            off, chi_square = off / math.sqrt(spread), None
     else:
         chi_square = left
     return Fitted._made(
@@ -322,6 +335,7 @@ def _fitted(model: _Model, free: Floats, converged: bool, known: _Known, deviati
         measured=model.measured,
         measured_uncertainty=deviation,
         computed=there.speed,
+        normalized_residual=-off,
         leverage=leverage,
         standardized_residual=standardized,
         disagreement_limit=limit,
@@ -399,8 +413,8 @@ def _varied(vary: Any) -> tuple[list[Any], list[Any]]:
     return paths, list(vary.values()) if isinstance(vary, Mapping) else [None] * len(paths)
 
 
-def _measurements(measured: Any) -> tuple[Whole, Floats, Floats | None]:
-    """Mode numbers, speeds (negative for backward modes) and their standard uncertainties, None if not given."""
+def _measurements(measured: Any) -> tuple[Whole, Floats, Floats | None, Any]:
+    """Mode numbers, speeds (negative for backward modes), their standard uncertainties (None if not given), which are periods."""
     if not isinstance(measured, Mapping) or not measured:
         such = f"a dictionary of speeds by mode number such as {_FORM}"
         raise ValueError(f"{_CALLER}: measured must be {such}, got {shown(measured)}")
@@ -411,17 +425,18 @@ def _measurements(measured: Any) -> tuple[Whole, Floats, Floats | None]:
             raise ValueError(f"{_CALLER}: measured: modes are counted from 1, got 0")
         numbers.append(number)
         found.append(_measurement(number, unpacked(value)))
-    bare = [number for number, (_, spread) in zip(numbers, found, strict=True) if spread is None]
+    bare = [number for number, (_, spread, _) in zip(numbers, found, strict=True) if spread is None]
     if bare and len(bare) < len(found):
         raise ValueError(
             f"{_CALLER}: measured[{bare[0]}] has no uncertainty, and others have; give that of all, as in {_FORM}, or of none"
         )
-    speed = np.array([np.sign(k) * x for k, (x, _) in zip(numbers, found, strict=True)])
-    return np.array(numbers), speed, None if bare else np.array([spread for _, spread in found])
+    speed = np.array([np.sign(k) * x for k, (x, *_) in zip(numbers, found, strict=True)])
+    timed = np.array([is_period for *_, is_period in found])
+    return np.array(numbers), speed, None if bare else np.array([spread for _, spread, _ in found]), timed
 
 
-def _measurement(number: int, value: Any) -> tuple[float, float | None]:
-    """A speed and its uncertainty, both positive, in rad/s."""
+def _measurement(number: int, value: Any) -> tuple[float, float | None, bool]:
+    """A speed and its uncertainty, both positive, in rad/s, and whether a period was measured."""
     caller, spread = f"{_CALLER}: measured[{number}]", None
     if isinstance(value, str) and (parts := with_tolerance(value)) is not None and parts[0]:
         value = parts  # "2.01 s +- 0.02 s"
@@ -438,7 +453,7 @@ def _measurement(number: int, value: Any) -> tuple[float, float | None]:
     size = abs(size)
     speed = 2 * math.pi / size if is_period else size
     if spread is None:
-        return speed, None
+        return speed, None, is_period
     if isinstance(spread, str) and spread.strip().endswith("%"):
         part = real(caller, "rtol (the uncertainty)", spread)
     else:
@@ -455,7 +470,7 @@ def _measurement(number: int, value: Any) -> tuple[float, float | None]:
         raise ValueError(
             f"{caller}: uncertainty must be from {1 / _EXTREME:g} to {_EXTREME:g} times the measured value, got {shown(spread)}"
         )
-    return speed, part * speed
+    return speed, part * speed, is_period
 
 
 def _speed_or_period(caller: str, name: str, value: Any) -> tuple[float, bool]:

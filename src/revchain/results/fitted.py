@@ -82,8 +82,8 @@ class Fitted(Result, row="datum", title="Fitted: {summary}", notes=("{_lines}",)
         fact=True,
     )
     normalized_residual: Field[Floats] = Field(
-        "Residuals divided by the uncertainties of the measured speeds, shape (m,).",
-        lambda f: _over(f.residual, f.measured_uncertainty),
+        "Measured minus computed, divided by the uncertainty of the measurement, shape (m,). Where a period was measured it is "
+        "that of the period, with the sign of the speed's residual.",
         fact=True,
     )
     leverage: Field[Floats] = Field(
@@ -142,10 +142,11 @@ class Fitted(Result, row="datum", title="Fitted: {summary}", notes=("{_lines}",)
                 lines.append(f"{group[0]} has no effect on the speeds measured: leave it out, or measure another mode")
             else:
                 both = " and ".join(group)
-                lines.append(f"the speeds measured cannot tell {both} apart: leave one of them out, or measure more")
+                more = "" if self._all_are_measured or "gravity" in group else ", or measure more"
+                lines.append(f"the speeds measured cannot tell {both} apart: leave one of them out{more}")
         free = self.degrees_of_freedom
         if self.chi_square is not None and free and self.chi_square > free + 5 * (2 * free) ** 0.5:  # five standard deviations
-            why = "start nearer, vary other data, or doubt the uncertainties"
+            why = "a measurement is wrong, the uncertainties are too small, or other data differ from the system"
             lines.append(f"chi-square is far above its degrees of freedom: {why}")
         lines += self._disagreement()
         unit = self._speed_unit or "rad/s"
@@ -168,14 +169,20 @@ class Fitted(Result, row="datum", title="Fitted: {summary}", notes=("{_lines}",)
     def _disagreement(self) -> list[str]:
         """A line on the measurement that disagrees, if there is one."""
         if not self.disagreeing:
-            return []
+            return ["the measurements agree with one another"] if np.isfinite(self.disagreement_limit) else []
         k = self.number.tolist().index(self.disagreeing[0])
         size, lever = abs(self.standardized_residual[k]), self.leverage[k]
         off = f"{size:.1f} standard deviations" if size < 1e3 else "over 1000 standard deviations"
         if len(self.disagreeing) == 1:
             return [f"mode {self.disagreeing[0]} disagrees with the others: {off} (leverage {lever:.2f}); measure it again"]
         modes = ", ".join(map(str, self.disagreeing[:-1])) + f" and {self.disagreeing[-1]}"
-        return [f"modes {modes} disagree: {off}; measure more modes to tell which of them is wrong"]
+        more = "measure them again" if self._all_are_measured else "measure more modes to tell which of them is wrong"
+        return [f"modes {modes} disagree: {off}; {more}"]
+
+    @property
+    def _all_are_measured(self) -> bool:
+        """Whether the system has no other modes than those measured."""
+        return self.system.mode_count is not None and len(self.number) >= self.system.mode_count
 
     def _words(self) -> str:
         free = f"{self.degrees_of_freedom} degree{'s' * (self.degrees_of_freedom != 1)} of freedom"
