@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..results.sheet import in_unit
 from ..systems.extras import require
 from ..systems.numbers import Floats, Numbers, integer, listed, shown, word
 from ..systems.units import SPEED_UNITS
@@ -63,7 +62,7 @@ class SpeedUnit:
     def __init__(self, caller: str, unit: str | None, found: Any = None, usual: str = "rad/s") -> None:
         chosen = getattr(found, "_speed_unit", None) or usual if unit is None else unit
         self.unit = word(caller, "speed", chosen, SPEED_UNITS)
-        self.quantity = SPEED_UNITS[chosen][0]
+        self.quantity, self.per_radian = SPEED_UNITS[chosen]
 
     @property
     def label(self) -> str:
@@ -72,7 +71,10 @@ class SpeedUnit:
 
     def of(self, speed: Any) -> Any:
         """Speeds in this unit. Those of backward rotation are negative, also as periods; that of rest is infinite."""
-        return in_unit(speed, self.unit)
+        if self.unit != "s":
+            return self.per_radian * speed
+        with np.errstate(divide="ignore"):
+            return np.divide(self.per_radian, speed)
 
     def text(self, speed: float) -> str:
         """A speed with its unit, such as ``36.99 rpm``; a period without the sign of its rotation."""

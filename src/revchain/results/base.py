@@ -224,7 +224,8 @@ class Result(Unchangeable):
 
     def _printed(self) -> Sheet:
         """What a printed table shows, with its speeds in the unit in which the question was asked."""
-        return in_speed_unit(self._sheet(brief=True), self._speed_unit)
+        sheet, unit = self._sheet(brief=True), self._speed_unit
+        return sheet if unit is None else in_speed_unit(sheet, unit)
 
     def _full(self) -> Sheet:
         """All data for dictionaries and files: the columns, and the facts after the system in numbers."""
@@ -243,7 +244,7 @@ class Result(Unchangeable):
     def _state(self) -> dict[str, Any]:
         """All parts, and the other fields computed so far."""
         parts = {name: getattr(self, name) for name, field in self._fields.items() if field.part and hasattr(self, name)}
-        return parts | {name: value for name, value in dict(self.__dict__).items() if name in self._fields}
+        return parts | {name: value for name, value in dict(self.__dict__).items() if name in self._fields or name == "_speed_unit"}
 
     def to_dict(self) -> dict[str, Any]:
         """Return the data of the table as plain Python data.

@@ -15,6 +15,7 @@ import numpy as np
 
 from ..systems.extras import require
 from ..systems.numbers import file_path
+from ..systems.units import SPEED_UNITS
 from ..systems.system import System
 from ..systems.system import restored as system_from
 from .files import hdf5_file, naming, written_aside
@@ -177,6 +178,8 @@ def _unpacked(value: Any, arrays: Mapping[str, Any], made: dict[str, Any]) -> An
             import_module(value["module"])  # imported when they are first needed
         if value["result"] not in KINDS:
             raise ValueError(f"holds a {value['result']}, which this version of revchain does not know")
+        if state.get("_speed_unit", "s") not in SPEED_UNITS:
+            raise ValueError(f"holds a result in the unit {state['_speed_unit']}, which is none of speeds")
         return restored(KINDS[value["result"]], state)
     if "system" in value:
         made[value["name"]] = system_from(value["system"], _unpacked(value["state"], arrays, made))

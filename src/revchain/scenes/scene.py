@@ -333,13 +333,17 @@ class Scene(Tables, frozen=True, weakref=True):
         """
         (system, gravity), given = self._built(), None if changed else self._made().get(question)
         table = self._table(question, changed)
-        unit = speed_unit(to_builtins(table)) if isinstance(self.speed, UnsetType) else self.speed
+        asked = getattr(table, "angular_speed", getattr(table, "max_angular_speed", UNSET))
+        unit = None if isinstance(self.speed, UnsetType) else self.speed
+        if unit is None and asked is not UNSET:
+            unit = speed_unit(to_builtins(asked))  # in which the speed of the question was written
         try:
             if given is None:
                 numbers = Numbers("scene", options=options)
                 given = self._arguments(question, table, system, numbers)
                 numbers.done()
-            return asked_in(unit, answered(question, system, given, gravity, progress))
+            found = answered(question, system, given, gravity, progress)
+            return found if unit is None else asked_in(unit, found)
         except ValueError as error:
             if not isinstance(error, SceneError):
                 error = SceneError("scene", problems=[self._problem_of(error, question, self._table(question, changed))])
