@@ -334,7 +334,7 @@ class Scene(Tables, frozen=True, weakref=True):
         (system, gravity), given = self._built(), None if changed else self._made().get(question)
         table = self._table(question, changed)
         asked = getattr(table, "angular_speed", getattr(table, "max_angular_speed", UNSET))
-        unit = None if isinstance(self.speed, UnsetType) else self.speed
+        unit: str | None = None if isinstance(self.speed, UnsetType) else self.speed
         if unit is None and asked is not UNSET:
             unit = speed_unit(to_builtins(asked))  # in which the speed of the question was written
         try:
