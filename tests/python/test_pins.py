@@ -7,6 +7,7 @@ The exponents themselves are checked in quadruple precision by tests/cpp/damped_
 import math
 import pickle
 
+import mpmath as mp
 import numpy as np
 import pytest
 from exact import near
@@ -14,7 +15,6 @@ from exact import near
 import revchain as rc
 from revchain.results.modes import speed_bound_of_exponents
 
-mp = pytest.importorskip("mpmath")
 G = 9.81
 
 
