@@ -299,7 +299,7 @@ def test_no_warning_without_a_reason():
 @pytest.mark.parametrize(
     ("how", "kind", "message"),
     [
-        ({"ignore": "dampin"}, ValueError, f"ignore must have words of {ALL_WORDS}, or be \"all\", got 'dampin'"),
+        ({"ignore": "dampin"}, ValueError, f"ignore must have words of {ALL_WORDS}, or be \"all\", got 'dampin'; did you mean damping[?]"),
         ({"ignore": ("damping", "")}, ValueError, "ignore must have words of .*, got ''"),
         ({"ignore": 3}, TypeError, "ignore must be text or a tuple of texts, got 3"),
         ({"ignore": ("damping", 3)}, TypeError, "ignore must be text or a tuple of texts, got"),
@@ -750,6 +750,42 @@ def test_the_command(run, here):
     assert (code, err) == (4, "revchain: full.toml: exists already; --force overwrites it\n")
     assert run("import", "full.xml", "--ignore", "all", "--force")[0] == 0 and Path("full.toml").read_text() == written
     assert run("import", "full.xml", "--ignore", "all", "-o", "-") == (0, written, "")
+
+
+def test_what_was_left_out_is_in_the_report(run, here):
+    assert run("import", "full.xml", "--ignore", "all")[0] == 0
+    described = rc.load_scene("full.toml").description
+    assert described.startswith("Read from full.xml. Left out: ") and all(reason in described for _, reason in REASONS)
+    plain = rc.to_mjcf(rc.Chain(mass=1.0, length=1.0))
+    Path("plain.xml").write_text(plain)
+    assert "description" not in run("import", "plain.xml", "-o", "-")[1]
+
+
+def test_the_command_names_the_right_command(run, here):
+    code, _, err = run("modes", "full.xml")
+    assert code == 3 and "line 1, column 1: is XML, not a scene: revchain import FILE.xml writes a model" in err
+    for name, text in {"a.json": '{"a": 1}', "b.toml": "\n# a scene\n[[links]]\n"}.items():
+        Path(name).write_text(text)
+        code, _, err = run("import", name)
+        assert (code, err) == (3, f"revchain: {name}: is no XML model: MJCF begins with <mujoco>, URDF with <robot>\n")
+    code, _, err = run("import", "none.xml")
+    assert (code, err) == (3, "revchain: none.xml: cannot be read: No such file or directory\n")
+
+
+def test_a_missing_model(tmp_path):
+    with pytest.raises(FileNotFoundError, match="none.xml") as raised:
+        rc.from_mjcf(tmp_path / "none.xml")
+    assert type(raised.value) is FileNotFoundError
+
+
+@pytest.mark.parametrize(("word", "same"), [("frictionloss", "friction"), ("limited", "range"), ("density", "fluid")])
+def test_words_of_the_file_are_accepted(word, same):
+    said = []
+    for each in (word, same):
+        with pytest.raises(ValueError) as raised:
+            rc.from_mjcf(FULL, ignore=each)
+        said.append(str(raised.value))
+    assert said[0] == said[1] and "for 8 reasons" in said[0]
 
 
 def test_the_command_reads_urdf_and_trees(run, here):

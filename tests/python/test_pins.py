@@ -98,6 +98,22 @@ def test_the_bound_of_a_slow_speed_is_that_of_the_speed(nearness):
     assert m.speed_error_bound[0] == near(m.error_bound[0] * ratio, rel=1e-3)
 
 
+def test_an_underdamped_mode_does_not_read_as_critical():
+    """The damping ratio 1 - x in the table, with all digits of x."""
+
+    def table(damping):
+        rig = rc.Rig(rc.Chain(mass=1.0, length=1.0), pins=rc.Pin(damping=damping))
+        return rc.modes(rig, gravity=G)
+
+    near_critical = table(6.264183904719912)
+    assert near_critical.damping_ratio[0] == near(1.0, rel=1e-9)
+    apart = 2.00e-10 / 2  # (Im s / |s|)^2 / 2
+    assert "1 - 1.0e-10" in str(near_critical) and (near_critical.angular_speed[0] / abs(near_critical.exponent[0])) ** 2 / 2 == near(apart, rel=0.01)
+    assert "1 - " not in str(table(0.2)) and "0.0319275" in str(table(0.2))
+    assert "1 - " not in str(table(10.0)) and "1.00000" in str(table(10.0))
+    assert "modes are numbered by the size of their exponents, smallest first" in str(table(0.2))
+
+
 def test_speeds_of_which_nothing_is_known():
     """A bound of the exponent that reaches the real axis says nothing of the speed; wheels have no conjugate exponents."""
     s, off = np.array([-1 + 1e-3j, -1 + 1e-3j, -1 + 0j, -1 + 0j]), np.array([1e-2, np.inf, 1e-16, np.inf])

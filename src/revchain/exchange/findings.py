@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from difflib import get_close_matches
 from typing import Any, NamedTuple, NoReturn
 
 from ..systems.numbers import shown
@@ -25,6 +26,11 @@ WORDS = {
     "visual": "included files and meshes that are missing",
 }
 """What the argument `ignore` may name."""
+
+_OTHER_WORDS = {  # attributes of MuJoCo that mean a word
+    "frictionloss": "friction", "limited": "range", "limit": "range", "spring": "stiffness", "springref": "stiffness",
+    "density": "fluid", "viscosity": "fluid", "motor": "actuator", "position": "actuator", "damper": "damping", "mesh": "visual",
+}  # fmt: skip
 
 
 class ModelWarning(UserWarning):
@@ -137,10 +143,12 @@ def listed_words(function: str, name: str, value: object) -> tuple[str, ...]:
 
 
 def ignored(function: str, value: object) -> frozenset[str]:
-    """The words of the argument `ignore`; a ValueError lists all words if one is unknown."""
-    words = listed_words(function, "ignore", value)
+    """The words of the argument `ignore`, also as MuJoCo has them; a ValueError lists all words if one is unknown."""
+    words = [_OTHER_WORDS.get(word, word) for word in listed_words(function, "ignore", value)]
     for word in words:
         if word != "all" and word not in WORDS:
             known = ", ".join(WORDS)
-            raise ValueError(f'{function}: ignore must have words of {known}, or be "all", got {shown(word)}')
+            near = get_close_matches(word, [*WORDS, "all"], n=1)
+            hint = f"; did you mean {near[0]}?" if near else ""
+            raise ValueError(f'{function}: ignore must have words of {known}, or be "all", got {shown(word)}{hint}')
     return frozenset(WORDS if "all" in words else words)

@@ -293,6 +293,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         "only decays, negative for one that grows.",
         lambda m: -m.exponent.real / np.abs(m.exponent),
         heading="damping ratio",
+        shown=lambda m: _ratios(m),
     )
     decay_time: Field[Floats] = Field(
         "Time in which each motion decays to 1/e, s, shape (k,): infinite without dashpots, negative if it grows.",
@@ -670,6 +671,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         if self._is_damped and not self.angular_speed.all():
             grows = bool((self.exponent.real > 0).any())
             lines.append(f"speed 0: the motion only decays{', or grows where the decay time is negative' if grows else ''}")
+        if self._is_damped:
+            lines.append("modes are numbered by the size of their exponents, smallest first")
         if self.rigid:
             lines.append("the trolley rolls freely: the system also moves as a whole, at speed 0, which is no mode of the list")
         if self.has_momentum:
@@ -710,6 +713,18 @@ def _texts(nodes: Iterable[Numbers]) -> list[str]:
             found.append(": ".join([str(places.size), *shown[:1]]))
         else:
             found.append(f"{places.size}: {shown[0]} {'… ' if places.size > 2 else ''}{shown[1]}")
+    return found
+
+
+def _ratios(modes: Modes) -> list[str]:
+    """Damping ratios; ``1 - x`` for a motion that oscillates although its ratio would be printed as 1."""
+    found = []
+    for ratio, s in zip(modes.damping_ratio.tolist(), modes.exponent.tolist(), strict=True):
+        text = f"{ratio:#.6g}"
+        if s.imag and abs(float(text)) == 1:
+            apart = (s.imag / abs(s)) ** 2 / (1 + abs(ratio))  # 1 - ratio without cancellation
+            text = f"1 - {apart:.1e}" if ratio > 0 else f"-1 + {apart:.1e}"
+        found.append(text)
     return found
 
 
