@@ -29,7 +29,8 @@ WORDS = {
 
 _OTHER_WORDS = {  # attributes of MuJoCo that mean a word
     "frictionloss": "friction", "limited": "range", "limit": "range", "spring": "stiffness", "springref": "stiffness",
-    "density": "fluid", "viscosity": "fluid", "motor": "actuator", "position": "actuator", "damper": "damping", "mesh": "visual",
+    "density": "fluid", "viscosity": "fluid", "motor": "actuator", "position": "actuator", "damper": "damping",
+    "mesh": "visual",
 }  # fmt: skip
 
 
