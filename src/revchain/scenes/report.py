@@ -67,8 +67,8 @@ MEANINGS = {
     "equilibria": "Inclinations at which the arms stay while the shaft turns at this speed.",
 }
 DAMPED = (
-    "Each row is a motion of small amplitude that decays, because dashpots resist it: it oscillates with this period, or it only "
-    "decays where the speed is 0. It is no whirl, which would go on for ever."
+    "Each row is a motion of small amplitude from which dashpots or drag take energy: it oscillates with this period and decays, or "
+    "only decays where the speed is 0. Where the decay time is negative it grows. None is a steady whirl."
 )
 STABILITY = {
     "minimum": "stable, also with friction at the pins",
