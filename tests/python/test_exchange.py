@@ -608,9 +608,9 @@ def test_a_turning_support_keeps_axial_moments():
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("</worldbody>", '</worldbody><actuator><position name="servo" joint="b"/></actuator>', "actuator 'servo' acts without a signal, and a chain has no motors; take it away"),
-        ("</worldbody>", '</worldbody><actuator><motor joint="b" ctrllimited="true" ctrlrange="1 2"/></actuator>', "the actuator in line 7 acts without a signal, as its ctrlrange does not contain 0; take it away"),
-        ("</worldbody>", '</worldbody><actuator><motor joint="a"/><velocity name="brake" joint="b"/></actuator>', "actuator 'brake' acts without a signal"),
+        ("</worldbody>", '</worldbody><actuator><position name="servo" joint="b"/></actuator>', "actuator 'servo' of joint 'b' acts without a signal, and a chain has no motors; take it away"),
+        ("</worldbody>", '</worldbody><actuator><motor joint="b" ctrllimited="true" ctrlrange="1 2"/></actuator>', "the actuator of joint 'b' acts without a signal, as its ctrlrange does not contain 0; take it away"),
+        ("</worldbody>", '</worldbody><actuator><motor joint="a"/><velocity name="brake" joint="b"/></actuator>', "actuator 'brake' of joint 'b' acts without a signal"),
         ("</worldbody>", '</worldbody><equality><connect body1="lower" anchor="0 0 0"/></equality>', "the equality in line 7 is a constraint, which a chain does not have; take it away"),
         ('name="lower"', 'name="lower" gravcomp="1"', r"body 'lower' is held against gravity \(gravcomp\); set gravcomp to 0"),
         ("<worldbody>", '<option density="1.2"/><worldbody>', "in a fluid, whose forces are not read; set density"),

@@ -146,7 +146,10 @@ def test_a_model_that_stands_in_its_file():
     system, said = agrees(UPRIGHT, start=[np.pi, 0.0], others=bare, ignore="damping")
     assert system.names == ("legs", "arms") and system.mass.tolist() == [2.7, 3.0]
     assert said.left_out == ("line 5: joint 'bar' has damping 0.4", "line 6: joint 'hips' has damping 0.4")
-    assert said.remarks == ("line 11: the actuator in line 11 exerts no force without a signal: left out",)
+    assert said.remarks == (
+        "line 5: body 'arms', body 'legs' point up in the pose of the file (qpos0): read hanging",
+        "line 11: the actuator of joint 'hips' exerts no force without a signal: left out",
+    )
     damped, said = read(UPRIGHT)
     assert damped.pins == rc.Pin(damping=[0.4, 0.4]) and said.left_out == ()
     found = speeds_in_mujoco(bare, [np.pi, 0.0], damped=True)
@@ -238,7 +241,7 @@ REASONS = [
     ("armature", "line 8: the joint in line 8 has armature 0.2"),
     ("tendon", "line 13: tendon 'cable' pulls at the links, which a chain does not have"),
     ("equality", "line 14: the equality in line 14 is a constraint, which a chain does not have"),
-    ("actuator", "line 15: actuator 'servo' acts without a signal, and a chain has no motors"),
+    ("actuator", "line 15: actuator 'servo' of joint 'a' acts without a signal, and a chain has no motors"),
 ]
 
 
@@ -296,7 +299,7 @@ def test_no_warning_without_a_reason():
 @pytest.mark.parametrize(
     ("how", "kind", "message"),
     [
-        ({"ignore": "dampin"}, ValueError, f"ignore must have words of {ALL_WORDS}, or be \"all\", got 'dampin'"),
+        ({"ignore": "dampin"}, ValueError, f"ignore must have words of {ALL_WORDS}, or be \"all\", got 'dampin'; did you mean damping[?]"),
         ({"ignore": ("damping", "")}, ValueError, "ignore must have words of .*, got ''"),
         ({"ignore": 3}, TypeError, "ignore must be text or a tuple of texts, got 3"),
         ({"ignore": ("damping", 3)}, TypeError, "ignore must be text or a tuple of texts, got"),
@@ -347,6 +350,81 @@ def test_all_that_hang_from_one_body_are_named():
     third = three.replace("</body></body>", f'</body><body name="last"><joint axis="0 1 0"/>{ROD}</body></body>', 1)
     with pytest.raises(ValueError, match="body 'more', body 'low' and body 'last' all hang from body 'right'"):
         rc.from_mjcf(third, links="right low more last")
+
+
+TWO_ARMS = f"""<mujoco><worldbody>
+  <body name="left" pos="1 0 0"><joint name="l" axis="0 1 0"/>{ROD}
+    <body name="left hand" pos="0 0 -0.4" gravcomp="1"><joint name="lh" axis="0 1 0"/>{ROD}<site name="palm"/></body></body>
+  <body name="right"><joint name="r" axis="0 1 0"/>{ROD}
+    <body name="right hand" pos="0 0 -0.4"><joint name="rh" axis="0 1 0"/>{ROD}<site name="fist"/></body></body>
+</worldbody>
+<tendon><fixed name="cord" stiffness="5"><joint joint="lh" coef="1"/></fixed>
+  <spatial name="rope" stiffness="3"><site site="palm"/><site site="post"/></spatial></tendon>
+<equality><joint joint1="l" joint2="lh"/><weld body1="left"/><connect site1="palm" site2="post"/></equality>
+<actuator><position name="servo" joint="l"/><position joint="lh"/><position tendon="cord"/><position site="palm"/></actuator>
+<sensor><jointpos joint="lh"/></sensor>
+</mujoco>""".replace("<worldbody>", '<worldbody><site name="post" pos="1 0 -2"/>')
+
+
+def test_what_acts_on_another_branch_is_left_out_with_it():
+    chain, said = read(TWO_ARMS, links=("right", "right hand"))
+    assert chain == read(re.sub(r"<(tendon|equality|actuator|sensor)>.*</\1>", "", TWO_ARMS, flags=re.S), links=("right", "right hand"))[0]
+    assert said.left_out == (
+        "line 2: body 'left', 2 kg with what hangs from it, is not among links",
+        *(f"line {line}: {what} acts on no body among links" for line, what in [
+            (7, "tendon 'cord'"), (8, "tendon 'rope'"), (9, "the equality in line 9"), (9, "the equality in line 9"),
+            (9, "the equality in line 9"), (10, "actuator 'servo' of joint 'l'"), (10, "the actuator of joint 'lh'"),
+            (10, "the actuator of site 'palm'"), (10, "the actuator of tendon 'cord'"),
+        ]),
+    )  # fmt: skip
+    assert said.remarks == ()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "reason"),
+    [
+        ('name="servo" joint="l"', 'name="servo" joint="r"', "actuator 'servo' of joint 'r' acts without a signal"),
+        ('tendon="cord"', 'joint="rh"', "the actuator of joint 'rh' acts without a signal"),
+        ('<joint joint="lh" coef="1"/>', '<joint joint="lh" coef="1"/><joint joint="rh" coef="1"/>', "tendon 'cord' pulls"),
+        ('<site site="post"/></spatial>', '<site site="fist"/></spatial>', "tendon 'rope' pulls"),
+        ('joint2="lh"', 'joint2="rh"', "line 9: the equality in line 9 is a constraint"),
+        ('site2="post"', 'site2="fist"', "line 9: the equality in line 9 is a constraint"),
+        ('<weld body1="left"', '<weld body1="right"', "line 9: the equality in line 9 is a constraint"),
+        ('name="right hand"', 'name="right hand" gravcomp="1"', "body 'right hand' is held against gravity"),
+    ],
+)
+def test_what_acts_on_the_chain_is_an_obstacle(old, new, reason):
+    """Also where it acts on another branch besides."""
+    assert TWO_ARMS.count(old) == 1
+    with pytest.raises(ValueError, match=reason):
+        rc.from_mjcf(TWO_ARMS.replace(old, new), links=("right", "right hand"))
+
+
+def test_the_last_line_names_links_where_they_help():
+    with pytest.raises(ValueError) as raised:
+        rc.from_mjcf(TREE)
+    assert str(raised.value).splitlines()[-1] == '  links="root right low" reads the file without them'
+    braked = TREE.replace('<joint axis="0 1 0"/>', '<joint axis="0 1 0" frictionloss="1"/>')
+    with pytest.raises(ValueError) as raised:
+        rc.from_mjcf(braked)
+    last = str(raised.value).splitlines()[-1]
+    assert last == '  ignore="friction" and links="root right low" read the file without them'
+    assert read(braked, ignore="friction", links="root right low")[0] == read(TREE, links="low")[0]
+    with pytest.raises(ValueError) as raised:
+        rc.from_mjcf(braked.replace("<worldbody>", '<option gravity="0 0 0"/><worldbody>'))
+    last = str(raised.value).splitlines()[-1]
+    assert last.endswith('links="root right low" remove some of these reasons; the others need a change of the model')
+
+
+@pytest.mark.parametrize(("tilt", "is_said"), [(0, True), (30, True), (60, False), (180, False)])
+def test_a_pole_that_stands_in_its_file(tilt, is_said):
+    """A remark says that it is read hanging, unless it hangs, or stands on a spring."""
+    pole = '<mujoco><compiler angle="degree"/><worldbody><body name="pole" euler="0 {} 0"><joint axis="0 1 0"{}/><geom type="capsule" size="0.02" fromto="0 0 0 0 0 1" mass="1"/></body></worldbody></mujoco>'
+    remarks = getattr(read(pole.format(tilt, ""))[1], "remarks", ())
+    assert remarks == ("line 1: body 'pole' points up in the pose of the file (qpos0): read hanging",) * is_said
+    if tilt == 0:
+        rig, said = read(pole.format(tilt, ' stiffness="50"'))
+        assert rig.inverted.all() and said.remarks == ()
 
 
 INCLUDING = """<mujoco><include file="looks.xml"/><compiler meshdir="shapes"/>
@@ -672,6 +750,42 @@ def test_the_command(run, here):
     assert (code, err) == (4, "revchain: full.toml: exists already; --force overwrites it\n")
     assert run("import", "full.xml", "--ignore", "all", "--force")[0] == 0 and Path("full.toml").read_text() == written
     assert run("import", "full.xml", "--ignore", "all", "-o", "-") == (0, written, "")
+
+
+def test_what_was_left_out_is_in_the_report(run, here):
+    assert run("import", "full.xml", "--ignore", "all")[0] == 0
+    described = rc.load_scene("full.toml").description
+    assert described.startswith("Read from full.xml. Left out: ") and all(reason in described for _, reason in REASONS)
+    plain = rc.to_mjcf(rc.Chain(mass=1.0, length=1.0))
+    Path("plain.xml").write_text(plain)
+    assert "description" not in run("import", "plain.xml", "-o", "-")[1]
+
+
+def test_the_command_names_the_right_command(run, here):
+    code, _, err = run("modes", "full.xml")
+    assert code == 3 and "line 1, column 1: is XML, not a scene: revchain import FILE.xml writes a model" in err
+    for name, text in {"a.json": '{"a": 1}', "b.toml": "\n# a scene\n[[links]]\n"}.items():
+        Path(name).write_text(text)
+        code, _, err = run("import", name)
+        assert (code, err) == (3, f"revchain: {name}: is no XML model: MJCF begins with <mujoco>, URDF with <robot>\n")
+    code, _, err = run("import", "none.xml")
+    assert (code, err) == (3, "revchain: none.xml: cannot be read: No such file or directory\n")
+
+
+def test_a_missing_model(tmp_path):
+    with pytest.raises(FileNotFoundError, match="none.xml") as raised:
+        rc.from_mjcf(tmp_path / "none.xml")
+    assert type(raised.value) is FileNotFoundError
+
+
+@pytest.mark.parametrize(("word", "same"), [("frictionloss", "friction"), ("limited", "range"), ("density", "fluid")])
+def test_words_of_the_file_are_accepted(word, same):
+    said = []
+    for each in (word, same):
+        with pytest.raises(ValueError) as raised:
+            rc.from_mjcf(FULL, ignore=each)
+        said.append(str(raised.value))
+    assert said[0] == said[1] and "for 8 reasons" in said[0]
 
 
 def test_the_command_reads_urdf_and_trees(run, here):

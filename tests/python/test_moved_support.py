@@ -273,7 +273,7 @@ def test_gyroscopic_damped_chains_in_50_digits(seed):
         exponents = mp.eig(whole[: 2 * n, : 2 * n], left=False, right=False)
         m = rc.modes(rig, "all", gravity=G)
         assert len(m) == 2 * n and m.complete
-        for s, bound in zip(m.exponent, m.speed_error_bound, strict=True):
+        for s, bound in zip(m.exponent, m.error_bound, strict=True):
             near_by = min(exponents, key=lambda t: abs(t - mp.mpc(complex(s))))
             assert abs(near_by - mp.mpc(complex(s))) <= 4 * mp.mpf(2) ** -53 * abs(near_by) and bound < 1e-14
         state = mp.matrix(2 * n + 2, 1)

@@ -7,11 +7,13 @@ The exponents themselves are checked in quadruple precision by tests/cpp/damped_
 import math
 import pickle
 
+import mpmath as mp
 import numpy as np
 import pytest
 from exact import near
 
 import revchain as rc
+from revchain.results.modes import speed_bound_of_exponents
 
 G = 9.81
 
@@ -70,6 +72,95 @@ def test_a_pendulum_with_a_dashpot():
     assert strong.exponent == near([root - 5, -root - 5], rel=4e-16)
     assert (strong.angular_speed.tolist(), strong.damping_ratio.tolist()) == ([0.0, 0.0], [1.0, 1.0])
     assert np.isinf(strong.period).all() and "only decays" in str(strong)
+
+
+def within(got, exact, bound):
+    return abs(mp.mpf(float(got)) - exact) <= mp.mpf(float(bound)) * abs(exact)
+
+
+@pytest.mark.parametrize("nearness", [1e-1, 1e-4, 1e-8, 1e-11, -1e-4])
+def test_the_bound_of_a_slow_speed_is_that_of_the_speed(nearness):
+    """Near critical damping the speed is far smaller than the exponent, whose error is relative to its size."""
+    damping = 2 * math.sqrt(G) * (1 - nearness)
+    m = rc.modes(rc.Rig(rc.Chain(mass=1.0, length=1.0), pins=rc.Pin(damping=damping)), gravity=G)
+    with mp.workdps(50):
+        squared = mp.mpf(G) - (mp.mpf(damping) / 2) ** 2
+        if nearness < 0:
+            assert squared < 0 and m.angular_speed.tolist() == [0.0, 0.0]
+            assert m.speed_error_bound.tolist() == [0.0, 0.0] and (m.error_bound > 0).all()
+            return
+        exact = mp.sqrt(squared)
+        assert within(m.angular_speed[0], exact, m.speed_error_bound[0])
+        derived = m.speed_error_bound[0] + 4.5e-16
+        assert within(m.frequency[0], exact / (2 * mp.pi), derived) and within(m.rpm[0], 30 * exact / mp.pi, derived)
+        assert within(m.period[0], 2 * mp.pi / exact, derived)
+        ratio = float(abs(m.exponent[0]) / m.angular_speed[0])
+    assert m.speed_error_bound[0] == near(m.error_bound[0] * ratio, rel=1e-3)
+
+
+def test_an_underdamped_mode_does_not_read_as_critical():
+    """The damping ratio 1 - x in the table, with all digits of x."""
+
+    def table(damping):
+        rig = rc.Rig(rc.Chain(mass=1.0, length=1.0), pins=rc.Pin(damping=damping))
+        return rc.modes(rig, gravity=G)
+
+    near_critical = table(6.264183904719912)
+    assert near_critical.damping_ratio[0] == near(1.0, rel=1e-9)
+    apart = 2.00e-10 / 2  # (Im s / |s|)^2 / 2
+    assert "1 - 1.0e-10" in str(near_critical) and (near_critical.angular_speed[0] / abs(near_critical.exponent[0])) ** 2 / 2 == near(apart, rel=0.01)
+    assert "1 - " not in str(table(0.2)) and "0.0319275" in str(table(0.2))
+    assert "1 - " not in str(table(10.0)) and "1.00000" in str(table(10.0))
+    assert "modes are numbered by the size of their exponents, smallest first" in str(table(0.2))
+
+
+def test_speeds_of_which_nothing_is_known():
+    """A bound of the exponent that reaches the real axis says nothing of the speed; wheels have no conjugate exponents."""
+    s, off = np.array([-1 + 1e-3j, -1 + 1e-3j, -1 + 0j, -1 + 0j]), np.array([1e-2, np.inf, 1e-16, np.inf])
+    assert speed_bound_of_exponents(s, off, False).tolist() == [np.inf, np.inf, 0.0, np.inf]
+    assert speed_bound_of_exponents(s, off, True).tolist() == [np.inf] * 4
+    critical = rc.modes(rc.Rig(rc.Chain(mass=1.0, length=1.0), pins=rc.Pin(damping=6.0)), gravity=9.0)
+    assert not np.isfinite(critical.error_bound).any() and not np.isfinite(critical.speed_error_bound).any()
+
+
+def random_damped(seed, drums=False):
+    random = np.random.default_rng(seed)
+    n = 1 + seed % 4
+    wheels = rc.Flywheel(momentum=random.uniform(-3, 3, n)) if drums else None
+    pins = rc.Pin(stiffness=10 ** random.uniform(-1, 1, n), damping=10 ** random.uniform(-2, 1.5, n))
+    chain = rc.Chain(mass=10 ** random.uniform(-1, 1, n), length=10 ** random.uniform(-0.5, 0.5, n))
+    return rc.Rig(chain, flywheels=wheels, pins=pins)
+
+
+@pytest.mark.parametrize("drums", [False, True])
+@pytest.mark.parametrize("seed", range(12))
+def test_random_damped_speeds_within_their_bounds_in_50_digits(seed, drums):
+    rig = random_damped(seed, drums)
+    m, n = rc.modes(rig, "all", gravity=G), rig.size
+    with mp.workdps(50):
+        mass, length, stiffness, damping = (
+            [mp.mpf(float(x)) for x in each] for each in (rig.chain.mass, rig.chain.length, rig.pins.stiffness, rig.pins.damping)
+        )
+        momentum = [mp.mpf(float(x)) for x in rig.flywheels.momentum] if drums else [mp.mpf(0)] * n
+        M, C, K = mp.matrix(n), mp.matrix(n), mp.matrix(n)
+        for i in range(n):
+            for j in range(n):
+                M[i, j] = mp.fsum(mass[: min(i, j) + 1]) * length[i] * length[j]
+            K[i, i] += mp.fsum(mass[: i + 1]) * mp.mpf(G) * length[i]
+            C[i, i] -= mp.mpc(0, momentum[i])
+            for a, b, sign in ((i, i, 1), (i + 1, i + 1, 1), (i, i + 1, -1), (i + 1, i, -1)):
+                if max(a, b) < n:
+                    K[a, b] += sign * stiffness[i]
+                    C[a, b] += sign * damping[i]
+        first, inverse = mp.matrix(2 * n), M**-1
+        first[:n, n:], first[n:, :n], first[n:, n:] = mp.eye(n), -inverse * K, -inverse * C
+        exact = mp.eig(first, left=False, right=False)
+        assert np.isfinite(m.error_bound).all()
+        for s, speed, off, bound in zip(m.exponent, m.angular_speed, m.error_bound, m.speed_error_bound, strict=True):
+            near_by = min(exact, key=lambda t: abs(t - mp.mpc(complex(s))))
+            assert abs(near_by - mp.mpc(complex(s))) <= mp.mpf(float(off)) * abs(near_by) + mp.mpf("1e-40")
+            assert abs(mp.mpf(float(speed)) - near_by.imag) <= mp.mpf(float(bound)) * abs(near_by.imag) + mp.mpf("1e-40")
+            assert speed == 0 or off <= bound * (1 + 1e-9) < 1e-9
 
 
 def test_a_damped_double_pendulum_against_its_motion():

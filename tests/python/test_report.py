@@ -116,6 +116,21 @@ def test_verdicts_are_true():
     assert words == {each.sentence.partition(" is ")[2][:-1] for each in _report.verdicts(three)[2:]} and len(words) > 1
 
 
+def test_damped_modes_are_decaying_oscillations(tmp_path):
+    """No whirl goes on with dashpots; the main result has the decay times."""
+    scene = tmp_path / "damped.toml"
+    scene.write_text('[[links]]\nmass = 1\nlength = 1\npin = {damping = 0.2}\n[ask.modes]\n', encoding="utf-8")
+    loaded = rc.load_scene(scene)
+    page = _report.page_of(loaded, loaded.answers())
+    assert "can whirl" not in page and "it oscillates with this period and decays" in page
+    found = loaded.modes()
+    assert _report.finding(found).endswith(", decays in 10 s to 1/e.") and "rad/s" in _report.finding(found)
+    strong = rc.modes(rc.Rig(rc.Chain(mass=1.0, length=1.0), pins=rc.Pin(damping=10.0)), gravity=9.81)
+    assert _report.finding(strong).startswith("Mode 1: decays in ") and "rad/s" not in _report.finding(strong)
+    standing = rc.Rig(rc.Chain(mass=1.0, length=1.0), pins=rc.Pin(damping=1.0), inverted=True)
+    assert "grows in" in _report.finding(rc.modes(standing, gravity=9.81))
+
+
 def test_resonance_and_empty_answers():
     height = float(rc.modes(rc.Chain(mass=1.0, length=1.0)).conical_height[0])
     resonant = rc.response(rc.Chain(mass=1.0, length=1.0), conical_height=height, support_radius=0.01)

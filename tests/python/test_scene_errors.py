@@ -57,7 +57,7 @@ FILES = {
     "two keys in a line": ("[[links]]\nmass = 1, length = 1\n", "2:9 the line should end here: each key has a line of its own"),
     "no comma in a list": ("links = [{mass = 1, length = 1}\n{mass = 1, length = 1}]\n", "2:1 a comma or the closing bracket ] is missing"),
     "JSON in a TOML file": ('{"links": []} # toml', "1:1 is JSON: give the file a name that ends in .json"),
-    "XML in a TOML file": ("<mujoco>\n  <worldbody/>\n</mujoco> # toml", "1:1 is XML, not a scene: revchain.from_mjcf and revchain.from_urdf read models of multibody engines"),
+    "XML in a TOML file": ("<mujoco>\n  <worldbody/>\n</mujoco> # toml", "1:1 is XML, not a scene: revchain import FILE.xml writes a model of a multibody engine (MJCF, URDF) as a scene"),
     "[modes]": (LINK + "[modes]\ncount = 1\n", "4:1 modes: unknown key; write [ask.modes]"),
     "[[ask.modes]]": (LINK + "[[ask.modes]]\ncount = 1\n", "4:1 ask.modes: is one table: write [ask.modes], with one pair of brackets"),
     "top keys below the links": (LINK + 'order = "support first"\n', "4:1 links[0].order: unknown key; belongs at the top of the file, above the first table"),

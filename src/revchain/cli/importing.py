@@ -38,8 +38,6 @@ def import_model(
 ) -> None:
     """Write a model of a multibody engine (MJCF, URDF) as a scene, and list what was left out."""
     scene = Path(f"{file.stem}.toml" if out is None else out)
-    if scene.resolve() == file.resolve():
-        raise Stop(f"{file}: the model itself would be overwritten", ExitCode.WRONG_USAGE)
     if is_json(str(scene)):
         raise Stop(f"--out: the scene is TOML: its name must not end in .json, got {scene}", ExitCode.WRONG_USAGE)
     try:
@@ -52,12 +50,16 @@ def import_model(
     except ValueError as error:
         message = str(error).removeprefix(f"{file}: ")
         raise Stop(f"--{_as_options(message)}", ExitCode.WRONG_USAGE) from None
+    if scene.resolve() == file.resolve():
+        raise Stop(f"{file}: the model itself would be overwritten", ExitCode.WRONG_USAGE)
     gravity = f"gravity {model.gravity:.9g} m/s^2" + ("" if model.has_gravity else ", that of MuJoCo, as URDF has none")
     said = [
         f"{model.system.describe()}; {gravity}",
         *(line for title, each in model.said() for line in (title, *(f"  {sentence}" for sentence in each))),
     ]
-    text = scene_text(model.system, model.gravity, model.title or file.stem, [f"Read from {file.name}.", *said])
+    source = f"Read from {file.name}."
+    missing = f"{source} Left out: {'; '.join(map(str, model.left_out))}." if model.left_out else ""  # reports show it
+    text = scene_text(model.system, model.gravity, model.title or file.stem, [source, *said], missing)
     if str(scene) == STDOUT:
         sys.stdout.write(text)
         return

@@ -21,6 +21,7 @@ _NUMBERS = {
 }
 _MOST = 1e75  # of a number, so that the product of four is finite
 _OF_TENDONS = ("stiffness", "damping", "frictionloss", "limited", "armature", "actfrclimited")  # those that act
+_ACTING = ("actuator", "tendon", "equality", "body")  # elements that may act on bodies outside of the chain alone
 _OF_ACTUATORS = ("biastype", "damping", "dampingpoly", "armature")  # those that act without a signal
 
 
@@ -31,6 +32,7 @@ class Compiled:
         self.mujoco, self.model, self.text, self.findings, self.least = mujoco, model, text, findings, text.least
         kinds = mujoco.mjtJoint
         self.hinge, self.slide, self.ball = int(kinds.mjJNT_HINGE), int(kinds.mjJNT_SLIDE), int(kinds.mjJNT_BALL)
+        self.outside: set[int] = set()  # bodies that do not belong to the chain that the caller names
         self._refuse_wild()
         self.at = mujoco.MjData(model)
         for joint in range(model.njnt):
@@ -99,7 +101,13 @@ class Compiled:
 
     def _obstacle(self, kind: str, number: int, what: str, instead: str, word: str = "") -> None:
         """Note an obstacle of a body, joint or other element."""
-        self.findings.obstacle(self._place(kind, number), f"{self._name(kind, number)} {what}", instead, word)
+        place, name = self._place(kind, number), self._name(kind, number)
+        acts_on = self._acts_on(kind, number) if self.outside and kind in _ACTING else set()
+        if acts_on and acts_on <= self.outside:
+            if kind != "body":  # bodies themselves are listed
+                self.findings.leave_out(place, f"{name} acts on no body among links")
+        else:
+            self.findings.obstacle(place, f"{name} {what}", instead, word)
 
     def _remark(self, kind: str, number: int, what: str) -> None:
         """Note what was changed or has no effect."""
@@ -109,7 +117,58 @@ class Compiled:
         """The name of a body or joint as messages have it."""
         if kind in ("geom", "site"):
             return f"{kind} {getattr(self.model, kind)(number).name!r}"
+        if kind == "actuator":
+            return self._name_of_actuator(number)
         return self.text.name_of(kind, self._plain(kind, number)) if kind != "body" or number else "the ground"
+
+    def _name_of_actuator(self, number: int) -> str:
+        """The name of an actuator, if it has one, and what it drives."""
+        plain, (what, at) = self._plain("actuator", number), self._driven(number)[0]
+        name = "the actuator" if plain in self.text.unnamed or not plain else f"actuator {plain!r}"
+        return f"{name} of {self._name(what, at)}"
+
+    # ---- the bodies on which elements act
+
+    def _driven(self, number: int) -> list[tuple[str, int]]:
+        """The joint, tendon, body or sites that an actuator drives, each with its kind."""
+        model, kinds = self.model, self.mujoco.mjtTrn
+        kind = {
+            int(kinds.mjTRN_JOINT): "jnt",
+            int(kinds.mjTRN_JOINTINPARENT): "jnt",
+            int(kinds.mjTRN_TENDON): "tendon",
+            int(kinds.mjTRN_BODY): "body",
+        }.get(int(model.actuator_trntype[number]), "site")
+        ids = [int(k) for k in model.actuator_trnid[number] if k >= 0]
+        return [("joint" if kind == "jnt" else kind, k) for k in (ids if kind == "site" else ids[:1])]
+
+    def _bodies_of(self, what: str, number: int) -> set[int]:
+        """The bodies of a joint, tendon, body, site or geom."""
+        model, kinds = self.model, self.mujoco.mjtWrap
+        if what == "body":
+            return {number}
+        if what != "tendon":
+            return {int(getattr(model, f"{'jnt' if what == 'joint' else what}_bodyid")[number])}
+        of = {int(kinds.mjWRAP_JOINT): "joint", int(kinds.mjWRAP_SITE): "site"}
+        of |= {int(kinds.mjWRAP_SPHERE): "geom", int(kinds.mjWRAP_CYLINDER): "geom"}
+        first = int(model.tendon_adr[number])
+        along = range(first, first + int(model.tendon_num[number]))
+        met = [(of[int(model.wrap_type[k])], int(model.wrap_objid[k])) for k in along if int(model.wrap_type[k]) in of]
+        return {body for each in met for body in self._bodies_of(*each)}
+
+    def _acts_on(self, kind: str, number: int) -> set[int]:
+        """The moving bodies on which a tendon, actuator, constraint or force against gravity acts."""
+        model = self.model
+        if kind == "actuator":
+            met = self._driven(number)
+        elif kind == "equality":
+            ends = [int(k) for k in (model.eq_obj1id[number], model.eq_obj2id[number]) if k >= 0]
+            kinds, is_site = self.mujoco.mjtEq, int(model.eq_objtype[number]) == int(self.mujoco.mjtObj.mjOBJ_SITE)
+            of = {int(kinds.mjEQ_JOINT): "joint", int(kinds.mjEQ_TENDON): "tendon"}
+            of |= dict.fromkeys((int(kinds.mjEQ_CONNECT), int(kinds.mjEQ_WELD)), "site" if is_site else "body")
+            met = [(of[int(model.eq_type[number])], end) for end in ends if int(model.eq_type[number]) in of]
+        else:
+            met = [(kind, number)]
+        return {body for each in met for body in self._bodies_of(*each) if model.body_weldid[body]}
 
     def _place(self, kind: str, number: int) -> tuple[str, int]:
         """File and line of an element."""

@@ -3,9 +3,13 @@
 
 from __future__ import annotations
 
+from difflib import get_close_matches
 from typing import Any, NamedTuple, NoReturn
 
 from ..systems.numbers import shown
+
+_ALL = "the file without them"
+_SOME = "some of these reasons; the others need a change of the model"
 
 WORDS = {
     "actuator": "motors that exert a force without a signal",
@@ -23,8 +27,11 @@ WORDS = {
 }
 """What the argument `ignore` may name."""
 
-
-_SOME = "removes some of these reasons; the others need a change of the model"
+_OTHER_WORDS = {  # attributes of MuJoCo that mean a word
+    "frictionloss": "friction", "limited": "range", "limit": "range", "spring": "stiffness", "springref": "stiffness",
+    "density": "fluid", "viscosity": "fluid", "motor": "actuator", "position": "actuator", "damper": "damping",
+    "mesh": "visual",
+}  # fmt: skip
 
 
 class ModelWarning(UserWarning):
@@ -82,16 +89,21 @@ class Findings:
         self.function, self.ignore = function, ignore
         self.obstacles: list[Sentence] = []
         self.words: list[str] = []  # that would help, one for each obstacle; "" if none does
+        self.links: list[str] = []  # the argument that would help, one for each obstacle; "" if it does not
         self.left_out: list[Sentence] = []
         self.remarks: list[Sentence] = []
 
-    def obstacle(self, place: tuple[str, int], what: str, instead: str, word: str = "") -> None:
-        """Note what cannot be read, with what to write instead; or what is left out, if the caller ignores its word."""
+    def obstacle(self, place: tuple[str, int], what: str, instead: str, word: str = "", *, links: str = "") -> None:
+        """Note what cannot be read, with what to write instead; or what is left out, if the caller ignores its word.
+
+        `links` is the argument that takes one of several chains, if the obstacle is that there are several.
+        """
         if word in self.ignore:
             self.left_out.append(Sentence(place, what))
             return
         self.obstacles.append(Sentence(place, f"{what}; {instead}" + (f', or ignore="{word}"' if word else "")))
         self.words.append(word)
+        self.links.append(links)
 
     def leave_out(self, place: tuple[str, int], what: str) -> None:
         """Note what is left out."""
@@ -107,8 +119,11 @@ class Findings:
         words = " ".join(sorted({*self.words, *self.ignore} - {""}))
         if (count := len(lines)) == 1:
             raise Blocked(f"{self.function}: {lines[0]}".replace(f'ignore="{self.words[0]}"', f'ignore="{words}"'))
-        if any(self.words):
-            lines.append(f'ignore="{words}" ' + ("reads the file without them" if all(self.words) else _SOME))
+        helps = [f'ignore="{words}"'] * any(self.words) + [next(filter(None, self.links), "")] * any(self.links)
+        if helps:
+            is_all = all(word or links for word, links in zip(self.words, self.links, strict=True))
+            verb = ("read" if is_all else "remove") + "s" * (len(helps) == 1)
+            lines.append(f"{' and '.join(helps)} {verb} {_ALL if is_all else _SOME}")
         head = f"{self.function}: the model is no hanging chain, for {count} reasons:"
         raise Blocked("\n  ".join([head, *lines]))
 
@@ -129,10 +144,12 @@ def listed_words(function: str, name: str, value: object) -> tuple[str, ...]:
 
 
 def ignored(function: str, value: object) -> frozenset[str]:
-    """The words of the argument `ignore`; a ValueError lists all words if one is unknown."""
-    words = listed_words(function, "ignore", value)
+    """The words of the argument `ignore`, also as MuJoCo has them; a ValueError lists all words if one is unknown."""
+    words = [_OTHER_WORDS.get(word, word) for word in listed_words(function, "ignore", value)]
     for word in words:
         if word != "all" and word not in WORDS:
             known = ", ".join(WORDS)
-            raise ValueError(f'{function}: ignore must have words of {known}, or be "all", got {shown(word)}')
+            near = get_close_matches(word, [*WORDS, "all"], n=1)
+            hint = f"; did you mean {near[0]}?" if near else ""
+            raise ValueError(f'{function}: ignore must have words of {known}, or be "all", got {shown(word)}{hint}')
     return frozenset(WORDS if "all" in words else words)

@@ -19,6 +19,7 @@ from .write import RATIO
 
 _NEAR = 1e-9  # parts of a length, an axis or a moment by which a model may differ from a straight link
 _ROUNDED = 1e-3  # of the direction of an axis, where angles of the file are rounded: second order in all speeds
+_UPRIGHT = 0.7  # cosine of the angle from upright below which a link points up
 _COLUMNS = ("mass", "length", "centroid", "radius_of_gyration")
 
 
@@ -125,8 +126,8 @@ class Model(Compiled):
             self.children[above].insert(0, body)
             own = int(self.model.body_jntnum[above] > 0)
             self.depth[above] = max(self.depth[above], own + self.depth[body])
-        self._look_at_the_whole()
         bodies = self._path()
+        self._look_at_the_whole()
         for joint in (j for b in bodies for j in self._joints(b)):
             self._look_at_joint(joint)
         if not bodies:
@@ -175,16 +176,18 @@ class Model(Compiled):
         names = [self._plain("body", b) for b in line if self._joints(b)]
         named = [name for name in names if name and name not in self.text.unnamed]
         words = (", " if " " in "".join(named) else " ").join(named)
-        instead = f'name the links of one chain, such as links="{words}"' if named else "name the bodies, and give links"
+        links = f'links="{words}"' if named else ""
+        instead = f"name the links of one chain, such as {links}" if links else "name the bodies, and give links"
         *first, last = [self._name("body", b) for b in below]
         these = f"{', '.join(first)} and {last} {'both' if len(first) == 1 else 'all'}"
         what = f"{these} hang from {self._name('body', here)}; only a serial chain can be read"
-        self.findings.obstacle(self._place("body", next(b for b in below if b != followed)), what, instead)
+        self.findings.obstacle(self._place("body", next(b for b in below if b != followed)), what, instead, links=links)
         return followed
 
     def _leave_out(self, bodies: list[int]) -> None:
         """Note bodies that do not belong to the chain that the caller names."""
         for body in bodies:
+            self.outside |= self._below(body)
             heavy = f"{self.model.body_subtreemass[body]:g} kg with what hangs from it"
             self.findings.leave_out(self._place("body", body), f"{self._name('body', body)}, {heavy}, is not among links")
 
@@ -341,6 +344,7 @@ class Model(Compiled):
                     self._obstacle("joint", j, f"has armature {self._armature(j):g}", "set it to 0", "armature")
         links: list[_Link] = []
         joints: list[int] = []
+        up: list[int] = []  # bodies whose links point up in the file, and do not stand on a spring
         size = np.abs(self.model.body_pos).max(initial=0.0)
         for k, (part, after) in enumerate(zip(parts, [*parts[1:], None], strict=True)):
             joints += part.joints
@@ -350,8 +354,13 @@ class Model(Compiled):
                 hung = sum(each.mass for each in parts[k + 1 :])
                 links.append(self._link(part._replace(joints=joints), along, hung, is_plane, links[-1] if links else None))
                 joints = []
+                up += [part.body] * (not links[-1].inverted and float(links[-1].axis @ self.up) > _UPRIGHT)
             elif part.mass > self.least:
                 self._obstacle("body", part.body, "has mass but no length: the next joint is at its own", "move that joint")
+        if up:
+            names = ", ".join(self._name("body", body) for body in up)
+            what = f"{names} {'point' if len(up) > 1 else 'points'} up in the pose of the file (qpos0): read hanging"
+            self.findings.remark(self._place("body", up[0]), what)
         ways = {link.way for link in links} - {"none"}
         if "one hinge" in ways and not is_plane:
             what = "links have one hinge each, but these are not level and parallel"

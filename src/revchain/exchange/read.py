@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any, NamedTuple
 from xml.parsers import expat
 
-from ..results.files import naming
 from ..systems.chain import Chain
 from ..systems.extras import require
 from ..systems.numbers import STANDARD_GRAVITY, file_path
@@ -17,6 +16,9 @@ from ..systems.rig import Rig
 from .findings import Blocked, Findings, ModelWarning, Sentence, ignored, listed_words
 from .model import Model
 from .text import OTHER, Text
+
+
+_NOT_XML = ("{", "[", "#", b"{", b"[", b"#")  # first letters of JSON and TOML
 
 
 def from_mjcf(
@@ -54,11 +56,11 @@ def from_mjcf(
     ImportError
         If mujoco is not installed; the message says how to install it.
     OSError
-        (a ValueError too) If the file cannot be read.
+        If the file cannot be read.
 
     Notes
     -----
-    Words of `ignore`:
+    Words of `ignore`, for which the attributes of MuJoCo, such as ``frictionloss`` and ``limited``, are accepted too:
 
     ============= =======================================================================================
     word          what is left out
@@ -143,7 +145,7 @@ def from_urdf(
     ImportError
         If mujoco is not installed; the message says how to install it.
     OSError
-        (a ValueError too) If the file cannot be read.
+        If the file cannot be read.
 
     Notes
     -----
@@ -184,11 +186,12 @@ def read_model(function: str, source: Any, root: str, ignore: Any, links: Any) -
     chosen = () if links is None else listed_words(function, "links", links)
     is_text = isinstance(source, str) and source.lstrip().startswith("<")
     name = "" if is_text else file_path(function, "source", source)
-    with naming(name):
-        content = source if is_text else Path(name).read_bytes()
+    content = source if is_text else Path(name).read_bytes()
     try:
         text = Text(content, name, findings)
     except (expat.ExpatError, ValueError, LookupError) as error:
+        if content.lstrip(b"\xef\xbb\xbf \t\r\n" if isinstance(content, bytes) else None)[:1] in _NOT_XML:
+            raise Blocked(f"{function}: is no XML model: MJCF begins with <mujoco>, URDF with <robot>") from None
         raise Blocked(f"{function}: {error}") from None
     found = text.root.tag
     if found not in ([root] if root else OTHER):

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from .. import _core
 from ..results.base import asked_in
-from ..results.modes import Modes
+from ..results.modes import Modes, speed_bound_of_exponents
 from ..systems.chain import Chain, compiled
 from ..systems.cord import Cord
 from ..systems.held import Held
@@ -271,7 +271,8 @@ def _of_damped_rig(rig: Rig, asked: _Asked, many: int | None) -> Modes:
     if asked.rtol is not None and not np.all(bound <= asked.rtol):
         status = "tolerance_not_met"
     given: dict[str, Any] = {"number": np.arange(asked.first, asked.first + len(exponent)), "angular_speed": speed}
-    given |= {"exponent": exponent, "error_bound": bound, "speed_error_bound": bound, "error_estimate": estimate}
+    given |= {"exponent": exponent, "error_bound": bound, "error_estimate": estimate}
+    given |= {"speed_error_bound": speed_bound_of_exponents(exponent, bound, rig.has_momentum)}
     given |= {"shape": shape, "available": (available, 0), "rigid": rigid, "complete": complete, "status": status}
     given |= {"direction": np.where(speed < 0, -1, 1), "has_momentum": rig.has_momentum, "method": "exponents"}
     given |= {"_is_damped": True, "_unused": ("nodes",)}  # no point stays on the axis

@@ -255,7 +255,9 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         unit="s",
     )
     speed_error_bound: Field[Floats] = Field(
-        "Proved bound of the relative error of each angular speed, frequency and period, shape (k,), for the given gravity.",
+        "Proved bound of the relative error of each angular speed, shape (k,), for the given gravity; also of frequency and "
+        "period, which for a rig have up to 4.5e-16 more. With dashpots it is larger than `error_bound` where the motion decays "
+        "faster than it oscillates; 0 where the motion is proved not to oscillate, so that the speed is exactly 0.",
         otherwise=lambda m: _speed_bound(m.error_bound.astype(np.float64)),
         axes=(),
     )
@@ -267,7 +269,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
     )
     error_bound: Field[Numbers] = Field(
         "Bound of the relative error of each conical height, shape (k,), for the data exactly as stored. It is proved; for "
-        "cords it is checked by measurement.",
+        "cords it is checked by measurement. With dashpots, of each exponent: the error divided by the size of the exponent.",
         heading="error bound",
     )
     nodes: Field[tuple[Numbers, ...]] = Field(
@@ -291,6 +293,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         "only decays, negative for one that grows.",
         lambda m: -m.exponent.real / np.abs(m.exponent),
         heading="damping ratio",
+        shown=lambda m: _ratios(m),
     )
     decay_time: Field[Floats] = Field(
         "Time in which each motion decays to 1/e, s, shape (k,): infinite without dashpots, negative if it grows.",
@@ -299,7 +302,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         unit="s",
     )
     error_estimate: Field[Floats] = Field(
-        "With dashpots: estimate of the relative error of each exponent, shape (k,), also where `speed_error_bound` is "
+        "With dashpots: estimate of the relative error of each exponent, shape (k,), also where `error_bound` is "
         "infinite because nothing is proved; else the proved bound of the speed.",
         otherwise=lambda m: m.speed_error_bound,
         axes=(),
@@ -668,6 +671,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         if self._is_damped and not self.angular_speed.all():
             grows = bool((self.exponent.real > 0).any())
             lines.append(f"speed 0: the motion only decays{', or grows where the decay time is negative' if grows else ''}")
+        if self._is_damped:
+            lines.append("modes are numbered by the size of their exponents, smallest first")
         if self.rigid:
             lines.append("the trolley rolls freely: the system also moves as a whole, at speed 0, which is no mode of the list")
         if self.has_momentum:
@@ -711,11 +716,36 @@ def _texts(nodes: Iterable[Numbers]) -> list[str]:
     return found
 
 
+def _ratios(modes: Modes) -> list[str]:
+    """Damping ratios; ``1 - x`` for a motion that oscillates although its ratio would be printed as 1."""
+    found = []
+    for ratio, s in zip(modes.damping_ratio.tolist(), modes.exponent.tolist(), strict=True):
+        text = f"{ratio:#.6g}"
+        if s.imag and abs(float(text)) == 1:
+            apart = (s.imag / abs(s)) ** 2 / (1 + abs(ratio))  # 1 - ratio without cancellation
+            text = f"1 - {apart:.1e}" if ratio > 0 else f"-1 + {apart:.1e}"
+        found.append(text)
+    return found
+
+
 def _speed_bound(error: Floats) -> Floats:
     """Bound for the speed of a height with this error: ``(1 - error)**-0.5 - 1`` plus rounding; infinite from 1 on."""
     with np.errstate(divide="ignore", invalid="ignore"):
         bound = np.expm1(-0.5 * np.log1p(-np.minimum(error, 1.0)))
     return np.asarray(bound * (1 + 1e-9) + SPEED_ROUNDING)
+
+
+def speed_bound_of_exponents(exponent: Complex, error: Floats, turns: bool) -> Floats:
+    """Bound of the relative error of the imaginary parts of exponents whose relative error is at most `error`.
+
+    The error of an imaginary part is at most ``error * abs(exponent)``. An exponent on the real axis that is proved apart from
+    all others is exactly real, because its conjugate is an exponent too; not with wheels (`turns`), where it is none.
+    """
+    speed = np.abs(exponent.imag)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        off = error * np.abs(exponent) / (1 - error) * (1 + 4e-15)  # whichever exponent, computed or exact, error relates to
+        bound = np.where(off < speed, off / (speed - off) * (1 + 1e-15), np.inf)
+    return np.where((speed == 0) & np.isfinite(error) & (not turns), 0.0, bound)
 
 
 def rest(values: Numbers, second: Floats | None) -> Floats | None:

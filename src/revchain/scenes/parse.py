@@ -159,7 +159,7 @@ def _read_toml_error(message: str, lines: list[str]) -> tuple[int, int, str]:
     if (found[2], found[3], lines[0][:1]) == ("1", "1", "{"):
         reason = "is JSON: give the file a name that ends in .json"
     if (found[2], lines[0].lstrip()[:1]) == ("1", "<"):
-        reason = "is XML, not a scene: revchain.from_mjcf and revchain.from_urdf read models of multibody engines"
+        reason = "is XML, not a scene: revchain import FILE.xml writes a model of a multibody engine (MJCF, URDF) as a scene"
     reason = re.sub(r"^Cannot (overwrite a value|declare \(.*\) twice|redefine.*)$", "is there twice", reason)
     if reason == "is there twice" and re.match(r"\s*\[\[?links\]", lines[int(found[2]) - 1]):
         reason = LINKS_TWICE

@@ -66,6 +66,10 @@ MEANINGS = {
     "drag": "The shape in which the system is carried round through still air, and the torque that this takes.",
     "equilibria": "Inclinations at which the arms stay while the shaft turns at this speed.",
 }
+DAMPED = (
+    "Each row is a motion of small amplitude from which dashpots or drag take energy: it oscillates with this period and decays, or "
+    "only decays where the speed is 0. Where the decay time is negative it grows. None is a steady whirl."
+)
 STABILITY = {
     "minimum": "stable, also with friction at the pins",
     "spectrally stable": "stable without friction; friction at the pins can make it unstable",
@@ -263,7 +267,11 @@ def finding(found: Any) -> str:
         for row in range(min(len(found), MOST_NAMED)):
             speed, period = float(found.angular_speed[row]), float(found.period[row])
             way = " forward" * (speed > 0) + " backward" * (speed < 0) if found.has_momentum else ""
-            first.append(f"mode {found.number[row]}{way}: {abs(speed):.4g} rad/s ({abs(speed) * 30 / np.pi:.4g} rpm, period {period:.4g} s)")
+            turns = f"{abs(speed):.4g} rad/s ({abs(speed) * 30 / np.pi:.4g} rpm, period {period:.4g} s)"
+            if found._is_damped:
+                decay = float(found.decay_time[row])
+                turns = f"{turns}, " * (speed != 0) + f"{'decays' if decay > 0 else 'grows'} in {abs(decay):.4g} s {'to 1/e' if decay > 0 else 'by a factor e'}"
+            first.append(f"mode {found.number[row]}{way}: {turns}")
         more = f"; {len(found) - MOST_NAMED} more" if len(found) > MOST_NAMED else ""
         return _sentence("; ".join(first) + more)
     if isinstance(found, Modes) and found._is_good():
@@ -491,7 +499,8 @@ def _answer(scene: Scene, question: str, found: Any, units: str) -> str:
     heading += _asked(scene, question)
     if isinstance(found, str):
         return f'{heading}<p class="verdict open"><b>No answer.</b> {escape(_sentence(found))}</p>\n</section>'
-    parts = [heading, f'<p class="meaning">{escape(MEANINGS.get(question, ""))}</p>']
+    meaning = DAMPED if isinstance(found, Modes) and found._is_damped else MEANINGS.get(question, "")
+    parts = [heading, f'<p class="meaning">{escape(meaning)}</p>']
     said = "".join(
         f'<li class="{verdict.kind}"><b>{WORDS[verdict.kind]}.</b> {escape(verdict.sentence)}</li>' for verdict in verdicts(found)
     )

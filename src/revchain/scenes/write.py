@@ -11,11 +11,11 @@ from ..systems.chain import Chain
 from ..systems.rig import Rig
 
 
-def scene_text(system: Chain | Rig, gravity: float, title: str, comments: list[str]) -> str:
+def scene_text(system: Chain | Rig, gravity: float, title: str, comments: list[str], description: str = "") -> str:
     """The TOML of a scene that asks for all modes of a chain, or of a rig with a support, pins or turning parts."""
     rig = system if isinstance(system, Rig) else Rig(system)
     lines = [f"# {_plain(comment)}".rstrip() for comment in comments]
-    lines += ["", f"title = {_word(title)}", f"gravity = {gravity!r}  # m/s^2", "", "# Links, the lowest first: kg, m."]
+    lines += ["", f"title = {_word(title)}", *[f"description = {_word(description)}"] * bool(description), f"gravity = {gravity!r}  # m/s^2", "", "# Links, the lowest first: kg, m."]
     for k in range(rig.size):
         lines += ["", "[[links]]", *(f"{key} = {_word(value)}" for key, value in _link(rig, k).items())]
     if support := rig.support._given:
