@@ -186,7 +186,11 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         part=True,
         heading="top tension",
     )
-    half_waves: Field[Whole] = Field("Sign changes of the offsets, plus one.", heading="half waves")
+    half_waves: Field[Whole] = Field(
+        "Sign changes of the offsets, that of the support included, plus one, as in `SteadyShape`.",
+        lambda b: b._half_waves(),
+        heading="half waves",
+    )
     is_fold: Field[NDArray[np.bool_]] = Field(
         "Whether each point is a fold.", lambda b: np.isin(b.point, b.folds), heading="fold", column="fold"
     )
@@ -286,7 +290,8 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         Returns
         -------
         tuple of SteadyShape
-            The shapes in the order of the arc; empty if the branch does not pass the speed.
+            The shapes in the order of the arc. At the speed of a fold, within rounding, it is the one shape of the fold.
+            The tuple is empty if the speed is outside the range of the branch, or that at which it leaves the vertical.
 
         Raises
         ------
@@ -310,7 +315,18 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         if self._shapes is not None:
             what = "is for systems that hang; for a Held ask steady_shapes at the speed"
             raise ValueError(f"{caller}: {what}, got {height:g}")
-        return tuple(shape_made(found, self.system, g, self.direction) for found in self._found().shapes_at(height))
+        shapes = self._found().shapes_at(height)
+        nearest = int(np.argmin(np.abs(self.conical_height - height)))
+        if not shapes and abs(self.conical_height[nearest] - height) <= 8 * np.finfo(float).eps * height:
+            return self._at_point(nearest, g)
+        return tuple(shape_made(found, self.system, g, self.direction) for found in shapes)
+
+    def _at_point(self, k: int, gravity: float) -> tuple[SteadyShape, ...]:
+        """The shape at a point, such as a fold, whose speed is given within rounding; none for the straight chain."""
+        if k == 0 and self.birth == "vertical":
+            return ()
+        proved = {"proved": False} if self.is_fold[k] else {}
+        return (shape_made(self._found().shape(k), self.system, gravity, self.direction, **proved),)
 
     def stability_windows(
         self, *, frame: str = "free", tolerance: float = 1e-6, samples: int = 8, speed: str | None = None
@@ -331,8 +347,8 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         Returns
         -------
         StabilityWindows
-            The windows in the order of the arc, a sequence that prints as a table. They cover the branch except the part
-            from the vertical to the next point, and begin anew at folds, so that the speed rises or falls along each.
+            The windows in the order of the arc, a sequence that prints as a table. They cover the branch; near the
+            vertical one more shape is examined, a tenth of the way to the next point. They begin anew at folds, so that the speed rises or falls along each.
             Edges are located by bisection; `StabilityWindow.change` says what happens there. A window shorter than the
             distance of the places can be missed.
 
@@ -371,7 +387,7 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         if not self._is_of_links:
             raise ValueError(f"{caller}: is for chains; use the stability of shapes: branch.shape(-1).stability()")
         found = _core.stability_windows(self.system._under(self.gravity), self._found(), driven, wide, places)
-        windows = self._split_at_folds(found, wide)
+        windows = self._split_at_folds(self._from_vertical(found, frame), wide)
         changes = self._changes(windows, frame)
         return [
             StabilityWindow._made(
@@ -384,6 +400,20 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
             )
             for (s0, s1, h0, h1, verdict), change in zip(windows, changes, strict=True)
         ]
+
+    def _from_vertical(self, found: list[_Part], frame: str) -> list[_Part]:
+        """The windows, the first of which begins at the vertical unless the verdict is another one near it."""
+        if not found or self.birth != "vertical" or len(self) < 2:
+            return found
+        s0, s1, h0, h1, verdict = found[0]
+        top = float(self.conical_height[0])
+        near = self.at(conical_height=top + 0.1 * (float(self.conical_height[1]) - top))
+        if near:
+            inclination = self.inclination[1]
+            first = min(near, key=lambda shape: float(np.abs(shape.inclination - inclination).max()))
+            if first.stability(frame=frame).verdict not in (verdict, "undecided"):
+                return found
+        return [(float(self.arc[0]), s1, top, h1, verdict), *found[1:]]
 
     def _split_at_folds(self, found: list[_Part], tolerance: float) -> list[_Part]:
         """The windows, which are split at folds, so that the speed rises or falls all along each."""
@@ -439,15 +469,15 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
             return "momentum fold" if rises[0] * rises[1] > 0 else "zero exponent"
         return "zero exponent"
 
-    def _judged(self, frame: str) -> tuple[tuple[float, float, str], ...]:
-        """Parts of the branch with one verdict: their ends, counted in points, and the verdict."""
+    def _judged(self, frame: str, samples: int = 1) -> tuple[tuple[float, float, str], ...]:
+        """Parts of the branch with one verdict, from some verdicts for each point: ends, counted in points, and the verdict."""
         if self.system._is_cord:
             what = "is for links, as each verdict of a cord takes long; ask shapes: branch.shape(-1).stability()"
             raise UnavailableError(f"revchain.Branch.verdict: {what}")
         try:
             if self._is_of_links:
                 system: Any = self.system._under(self.gravity)
-                found = _core.stability_windows(system, self._found(), frame == "driven", 1e-4, 1)
+                found = _core.stability_windows(system, self._found(), frame == "driven", 1e-4 if samples == 1 else 1e-6, samples)
                 parts = [(*np.interp(each[:2], self.arc, self.point).tolist(), each[4]) for each in found]
             else:
                 shapes = [(k, shape) for k in range(len(self)) if (shape := self._shape_or_none(k)) is not None]
@@ -545,6 +575,15 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         straight = np.arctan(np.sinh(self._points[:, : self.system.size]))  # to the line in which the link hangs or stands
         turned = np.copysign(np.pi, straight) - straight
         return np.where(getattr(self.system, "inverted", False), turned, straight)
+
+    def _half_waves(self) -> Any:
+        waves, support = self._found().half_waves, self.system._support
+        if support is None or not support.radius or not self._is_of_links:
+            return waves
+        inwards = np.asarray(self.system._base.length) * np.sin(self.inclination)
+        offsets = np.column_stack([self.tip_radius, self.tip_radius[:, None] - np.cumsum(inwards, axis=1)])
+        signs = [np.sign(row[row != 0.0]) for row in offsets]
+        return np.array([1 + np.count_nonzero(np.diff(row)) for row in signs], waves.dtype)
 
     @property
     def _name(self) -> str:
