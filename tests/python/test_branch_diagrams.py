@@ -121,3 +121,74 @@ def test_the_shape_at_the_speed_of_a_fold():
             assert near[0].inclination == pytest.approx(branch.inclination[fold], abs=1e-6)
             assert branch.at(1e-3 * speed) == ()
     assert rc.branch(BOTTOM_HEAVY, 2, max_angular_speed=10.0).at("10.5 rad/s") == ()
+
+
+SCENE = """
+[[links]]
+mass = 1.0
+length = 1.0
+[[links]]
+mass = 3.0
+length = 1.0
+[ask.branches]
+max_angular_speed = 10.0
+"""
+
+
+@pytest.fixture
+def scene(tmp_path):
+    def written(more):
+        path = tmp_path / "scene.toml"
+        path.write_text(SCENE + more)
+        return path
+
+    return written
+
+
+def test_json_holds_the_windows(run, scene):
+    import json
+
+    code, out, _ = run("branches", scene(""), "--stability", "--json", "-")
+    assert code == 0
+    windows = json.loads(out)["stability_windows"]["windows"]
+    direct = rc.branches(rc.load_scene(scene("")).system(), max_angular_speed=10.0).stability_windows()
+    assert [each["verdict"] for each in windows] == list(direct.verdict)
+    assert [each["end_speed"] for each in windows] == pytest.approx(direct.end_speed.tolist(), rel=1e-9)
+    code, out, _ = run("branches", scene(""), "--json", "-")
+    assert code == 0 and "stability_windows" not in json.loads(out)
+
+
+def test_words_say_which_branches_are_complete(run, scene):
+    from revchain.scenes.report import verdicts
+
+    hanging = rc.branches(BOTTOM_HEAVY, max_angular_speed=10.0)
+    assert "no branch of hanging shapes is missing" in str(hanging)
+    assert verdicts(hanging)[0].sentence.startswith("Complete: no branch of hanging shapes is missing")
+    every = rc.branches(BOTTOM_HEAVY, max_angular_speed=10.0, hanging_only=False)
+    assert every._is_good() and not every.complete and verdicts(every)[0].kind == "open"
+    assert "no branch of steady shapes is missing" in str(rc.branches(rc.Chain(mass=[1.0], length=1.0), max_angular_speed=9.0))
+    code, out, err = run("branches", scene("hanging_only = false\n"))
+    assert (code, err) == (0, "") and "loops between two of the heights looked at are not excluded" in " ".join(out.split())
+    assert "hanging_only" not in run("shapes", scene("[ask.shapes]\nangular_speed = 9.0\n"))[1]
+
+
+def test_a_search_that_ends_before_its_proof_fails():
+    from revchain.scenes.report import shortfall
+
+    cut = rc.branches(BOTTOM_HEAVY, max_angular_speed=10.0, budget=10)
+    assert not cut._is_good() and shortfall(cut).startswith("the branches are not proved to be all: ")
+    assert not rc.branches(BOTTOM_HEAVY, max_angular_speed=10.0, budget=10, hanging_only=False)._is_good()
+    few = rc.steady_shapes(BOTTOM_HEAVY, angular_speed=10.0, budget=3)
+    assert not few._is_good() and "the shapes are not proved to be all" in shortfall(few)
+
+
+def test_answers_name_a_speed_if_the_question_does():
+    by_speed = rc.branches(BOTTOM_HEAVY, max_angular_speed=10.0)
+    by_height = rc.branches(BOTTOM_HEAVY, min_conical_height=0.1)
+    assert "largest speed" in str(by_speed) and "largest speed" not in str(by_height)
+    assert "ends at largest speed" in str(rc.branch(BOTTOM_HEAVY, 1, max_angular_speed=10.0))
+    assert by_speed[0].end == by_height[0].end == "height"
+    with pytest.raises(ValueError, match=r"mode 2 leaves the vertical at 8\.55557 rad/s .*must be greater, got 7"):
+        rc.branch(BOTTOM_HEAVY, 2, max_angular_speed=7)
+    with pytest.raises(ValueError, match=r"at the conical height 0\.133974.* got 1$"):
+        rc.branch(BOTTOM_HEAVY, 2, min_conical_height=1.0)

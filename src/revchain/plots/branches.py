@@ -138,7 +138,8 @@ def plot_branches(
     if not branches:
         ax.set_title("no shape at or above this conical height")
     elif hasattr(branches, "complete"):
-        ax.set_title("all branches: proved complete" if branches.complete else "branches found: not proved complete")
+        proved = f"all branches of {branches._of_shapes}: proved complete"
+        ax.set_title(proved if branches.complete else "branches found: not proved complete")
     return ax
 
 

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 Pair = tuple[float, float]
 _Part = tuple[float, float, float, float, str]  # arc at both ends, conical height at both ends, verdict
+OWN = "proved complete in its own posture"
 MOST_JUDGED = 150_000
 """Points times links squared whose stability takes about a second: above it tables and pictures leave it out."""
 
@@ -597,7 +598,13 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
     def _extent(self) -> str:
         many = self.folds.size
         folds = f", {many} fold{'s' * (many != 1)}" if many else ""
-        return f"{len(self)} points{folds}, ends at {self.end}"
+        return f"{len(self)} points{folds}, ends at {self._ends_at}"
+
+    _by_speed = False  # whether the question gave a speed, not a conical height
+
+    @property
+    def _ends_at(self) -> str:
+        return "largest speed" if self.end == "height" and self._by_speed else self.end
 
 
 class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", good="complete"):
@@ -607,7 +614,10 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
     isolated branches, which start at folds, follow. With ``hanging_only=False`` those of the other postures come after
     them, posture by posture. Those of a held system are ordered by half waves.
 
-    The printed table has a row for each branch; data frames, dictionaries and CSV files have one for each point.
+    The printed table has a row for each branch; data frames, dictionaries and CSV files have one for each point, with its
+    verdict. A verdict can change twice between two points: `stability_windows` has the windows, which no such file holds.
+    The command line reports a failed search unless the diagram is `complete`; with ``hanging_only=False`` it is enough that
+    the branches of the own posture are proved complete and the others are `consistent`.
 
     Examples
     --------
@@ -650,7 +660,10 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
         unit="rad/s",
     )
     end: Field[tuple[str, ...]] = Field(
-        "`Branch.end` of each branch.", lambda b: tuple(each.end for each in b), heading="ends at"
+        "`Branch.end` of each branch; printed as ``largest speed`` instead of ``height`` if a speed was given.",
+        lambda b: tuple(each.end for each in b),
+        heading="ends at",
+        shown=lambda b: [each._ends_at for each in b],
     )
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", fact=True)
     direction: Field[int] = Field("Direction of rotation, 1 or -1; only a rig with flywheels depends on it.", fact=True)
@@ -674,6 +687,24 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
     looked_at: Field[Floats] = Field("Conical heights at which all shapes were listed, m, descending.", fact=True)
 
     _stability: Field[bool] = Field("Whether the verdicts were asked for, so that reports list the windows.")
+
+    def _is_good(self) -> bool:
+        """Return whether everything was found and proved; of other postures only consistent lists are required."""
+        return super()._is_good() or (self._is_of_postures and self.consistent and self.remark.startswith(OWN))
+
+    @property
+    def _is_of_postures(self) -> bool:
+        return not (self.hanging_only or self.system._is_cord or self.system._is_held)
+
+    @property
+    def _of_shapes(self) -> str:
+        """The shapes for which ``complete`` is proved, in words."""
+        if self.system._is_cord or self.system._is_held or self._is_of_postures and self.complete:
+            return "steady shapes"
+        inverted = getattr(self.system, "inverted", None)  # of a rig
+        if inverted is None and self.system.size == 1:
+            return "steady shapes"
+        return "hanging shapes" if inverted is None or not np.any(inverted) else "shapes in this posture"
 
     def stability_windows(
         self, *, frame: str = "free", tolerance: float = 1e-6, samples: int = 8, speed: str | None = None
@@ -746,7 +777,8 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
         isolated = sum(each.mode is None for each in self)
         begin = "from rest" if self and self[0].birth == "rest" else "from the vertical"
         which = "Branches" if self.inverted is None else "Branches in every posture"
-        return f"{which}: {len(self) - isolated} {begin}, {isolated} isolated; {self.remark}"
+        remark = f"proved complete: no branch of {self._of_shapes} is missing" if self.complete else self.remark
+        return f"{which}: {len(self) - isolated} {begin}, {isolated} isolated; {remark}"
 
 
 def _by_link(column: Column, system: Any) -> list[Column]:
@@ -837,7 +869,7 @@ def joined(diagrams: Sequence[Branches], system: Any) -> Branches:
         remark = first.remark
     elif consistent:
         remark = (
-            f"{'proved complete in its own posture' if first.complete else first.remark}; in the others each shape of the "
+            f"{OWN if first.complete else first.remark}; in the others each shape of the "
             "proved lists is on one branch, but loops between two of the heights looked at are not excluded"
         )
     else:
