@@ -166,7 +166,8 @@ def test_words_say_which_branches_are_complete(run, scene):
     assert verdicts(hanging)[0].sentence.startswith("Complete: no branch of hanging shapes is missing")
     every = rc.branches(BOTTOM_HEAVY, max_angular_speed=10.0, hanging_only=False)
     assert every._is_good() and not every.complete and verdicts(every)[0].kind == "open"
-    assert "no branch of steady shapes is missing" in str(rc.branches(rc.Chain(mass=[1.0], length=1.0), max_angular_speed=9.0))
+    one = rc.branches(rc.Chain(mass=[1.0], length=1.0), max_angular_speed=9.0)
+    assert "no branch of steady shapes is missing" in str(one)
     code, out, err = run("branches", scene("hanging_only = false\n"))
     assert (code, err) == (0, "") and "loops between two of the heights looked at are not excluded" in " ".join(out.split())
     assert "hanging_only" not in run("shapes", scene("[ask.shapes]\nangular_speed = 9.0\n"))[1]

@@ -115,8 +115,8 @@ def plot_branches(
 ) -> Axes:
     """Draw the bifurcation diagram: a quantity of each branch against the speed.
 
-    Colours show half waves at the start. A line is solid where the shape is a minimum of the energy, dash-dotted where it is no minimum
-    but spectrally stable, dashed where it is unstable, dotted where the errors of the exponents leave the stability open.
+    Colours show half waves at the start. A line is solid where the shape is a minimum of the energy, dash-dotted where it
+    is no minimum but spectrally stable, dashed where it is unstable, dotted where the errors of the exponents leave the stability open.
     Hollow diamonds are folds, discs are pitchforks, where a branch and its mirror image leave the vertical; their speeds are
     above the frame, unless another one is so close that the numbers would overlap. Crosses are other changes of stability, such as a Hamiltonian Hopf bifurcation;
     `Branches.stability_windows` says what each is. The line changes at the ends of these windows, also between two points.

@@ -158,7 +158,8 @@ def branches(
         Chains and rigs: whether to leave out branches with a link above its upper pin (for a rig: with other links
         inverted than those of the rig). If false, the branches of all ``2**N`` postures are found; N at most 10.
     stability : bool, optional
-        Whether to draw the windows of stability, list them in reports and compute `Branch.verdict` of every branch now; not for cords. Otherwise tables and pictures compute it
+        Whether to draw the windows of stability, list them in reports and compute `Branch.verdict` of every branch now;
+        not for cords. Otherwise tables and pictures compute it
         when they need it, if that takes less than about a second.
 
     Returns

@@ -77,8 +77,8 @@ class StabilityWindows(Results[StabilityWindow], row="window", title="{_title_wo
     >>> rc.branches(chain, max_angular_speed=9.0).stability_windows()
     3 windows of stability of 2 branches, in the free frame
     branch  mode            verdict  from speed (rad/s)  to speed (rad/s)  from height (m)  to height (m)  change at the end
-         0     1            minimum             2.40131           9.00000          1.70069       0.121070                end
-         1     2  spectrally stable             5.79727           8.50090         0.291792       0.135704   Hamiltonian Hopf
+         0     1            minimum             2.39679           9.00000          1.70711       0.121070                end
+         1     2  spectrally stable             5.78636           8.50090         0.292893       0.135704   Hamiltonian Hopf
          1     2           unstable             8.50090           9.00000         0.135704       0.121070                end
     """
 
@@ -349,8 +349,8 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         -------
         StabilityWindows
             The windows in the order of the arc, a sequence that prints as a table. They cover the branch; near the
-            vertical one more shape is examined, a tenth of the way to the next point. They begin anew at folds, so that the speed rises or falls along each.
-            Edges are located by bisection; `StabilityWindow.change` says what happens there. A window shorter than the
+            vertical one more shape is examined, a tenth of the way to the next point. They begin anew at folds,
+            so that the speed rises or falls along each. Edges are located by bisection; `StabilityWindow.change` says what happens there. A window shorter than the
             distance of the places can be missed.
 
         Raises
@@ -471,14 +471,15 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         return "zero exponent"
 
     def _judged(self, frame: str, samples: int = 1) -> tuple[tuple[float, float, str], ...]:
-        """Parts of the branch with one verdict, from some verdicts for each point: ends, counted in points, and the verdict."""
+        """Parts of the branch with one verdict, found with `samples` for each point: ends, counted in points, and verdict."""
         if self.system._is_cord:
             what = "is for links, as each verdict of a cord takes long; ask shapes: branch.shape(-1).stability()"
             raise UnavailableError(f"revchain.Branch.verdict: {what}")
         try:
             if self._is_of_links:
                 system: Any = self.system._under(self.gravity)
-                found = _core.stability_windows(system, self._found(), frame == "driven", 1e-4 if samples == 1 else 1e-6, samples)
+                tolerance = 1e-4 if samples == 1 else 1e-6
+                found = _core.stability_windows(system, self._found(), frame == "driven", tolerance, samples)
                 parts = [(*np.interp(each[:2], self.arc, self.point).tolist(), each[4]) for each in found]
             else:
                 shapes = [(k, shape) for k in range(len(self)) if (shape := self._shape_or_none(k)) is not None]

@@ -350,8 +350,8 @@ class AskBranches(Table, frozen=True):
     ] = True
     stability: Annotated[
         bool, says(
-            "List the windows of stability in the terminal, the report and JSON, and write the verdict at each point to JSON "
-            "and CSV, however long it takes."
+            "List the windows of stability in the terminal, the report and JSON, and write the verdict at each point to "
+            "JSON and CSV, however long it takes."
         ),
     ] = False
 
