@@ -76,7 +76,7 @@ def test_a_loop_between_the_heights_looked_at_is_found_by_the_proof():
     assert proved.complete and proved.remark == "proved complete: no branch is missing"
     (loop,) = [branch for branch in proved if branch.end == "closed"]
     assert loop.mode is None and len(loop.folds) == 2
-    assert proved.plot().get_title() == "all branches: proved complete"
+    assert proved.plot().get_title() == "all branches of hanging shapes: proved complete"
     lists_alone = _core.branches(chain._compiled, 0.0057 * chain.total_length, 16, 3_000_000, 0, 9.8, 1)
     assert lists_alone.consistent and not lists_alone.complete and "not excluded" in lists_alone.remark
     assert len(proved) == len(lists_alone.branches) + 1
@@ -143,7 +143,7 @@ def test_pictures():
     empty = rc.branches(plummets(3), min_conical_height=10.0)
     assert len(empty) == 0 and empty.consistent
     assert empty.plot().get_title() == "no shape at or above this conical height"
-    assert rc.branches(plummets(3), min_conical_height=0.5).plot().get_title() == "all branches: proved complete"
+    assert rc.branches(plummets(3), min_conical_height=0.5).plot().get_title() == "all branches of hanging shapes: proved complete"
     for chain in (plummets(3), rods(3)):  # next to the vertical: perhaps it alone
         for mode, critical in enumerate(rc.modes(chain).conical_height, 1):
             short = rc.branch(chain, mode, min_conical_height=np.nextafter(critical, 0))

@@ -88,6 +88,8 @@ class Report:
             return as_csv(self._all)
         data = {"title": self.title, "description": self.system, "system": {}, **as_dict(self._all)}
         data["system"] = data["system"] or self._numbers()
+        if getattr(self.found, "_stability", False):
+            data["stability_windows"] = as_dict(self.found.stability_windows()._full())
         # msgspec writes null for a number that is not finite
         return msgspec.json.format(msgspec.json.encode(data), indent=2).decode() + "\n"
 

@@ -16,7 +16,7 @@ from ..results.shapes import is_driven
 from ..results.sheet import digits
 from ..systems.numbers import boolean, word
 from .modes import beside_at_rest
-from .style import SpeedUnit, half_waves_style, legend_outside, plain
+from .style import SpeedUnit, half_waves_style, house, legend_outside, plain
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -50,8 +50,10 @@ WORDS = {
     "unstable": "unstable",
     "undecided": "undecided",
 }
-FEW_MARKS = 3  # speeds that are written side by side
-CLOSEST = 0.03  # of the width, between marks whose speeds are written out
+WIDE, TALL = 0.4, 0.05  # room for a speed above the frame, level and upright, as a share of the width
+WIDE_POINTS, TALL_POINTS = 115.0, 15.0  # the same in points
+SAMPLES = 8  # verdicts for each point of a branch, as in `Branch.stability_windows`
+MOST_POSTURES = 7  # postures with a colour each
 
 
 class _Mark(NamedTuple):
@@ -113,11 +115,13 @@ def plot_branches(
 ) -> Axes:
     """Draw the bifurcation diagram: a quantity of each branch against the speed.
 
-    Colours show half waves. A line is solid where the shape is a minimum of the energy, dash-dotted where it is no minimum
-    but spectrally stable, dashed where it is unstable, dotted where the errors of the exponents leave the stability open.
+    Colours show half waves at the start. A line is solid where the shape is a minimum of the energy, dash-dotted where it
+    is no minimum but spectrally stable, dashed where it is unstable, dotted where the errors of the exponents leave the stability open.
     Hollow diamonds are folds, discs are pitchforks, where a branch and its mirror image leave the vertical; their speeds are
     above the frame, unless another one is so close that the numbers would overlap. Crosses are other changes of stability, such as a Hamiltonian Hopf bifurcation;
-    `Branches.stability_windows` says what each is, and finds windows shorter than the distance of two points.
+    `Branches.stability_windows` says what each is. The line changes at the ends of these windows, also between two points.
+    Above about 19,000 (points times links squared) fewer places are examined, above 150,000 only the points and their
+    neighbours, so that a short window can be missed. With ``hanging_only=False`` colours show the posture, up to 7 of them.
 
     quantity: Quantity to draw, as in `Branch.plot`.
     stability: Whether to draw the stability; if False, all lines are solid. If left out, it is drawn for chains, rigs and held
@@ -134,7 +138,8 @@ def plot_branches(
     if not branches:
         ax.set_title("no shape at or above this conical height")
     elif hasattr(branches, "complete"):
-        ax.set_title("all branches: proved complete" if branches.complete else "branches found: not proved complete")
+        proved = f"all branches of {branches._of_shapes}: proved complete"
+        ax.set_title(proved if branches.complete else "branches found: not proved complete")
     return ax
 
 
@@ -156,18 +161,25 @@ def _draw(
     windows = _windows(caller, branches, stability, frame)
     ax = beside_at_rest(branches[0].system if len(branches) else None, ax, 7.2, 5.0)
     named: set[int] = set()
+    postures = _postures(branches)
     curves: dict[Artist, int] = {}
     marks: list[_Mark] = []
     for branch, parts in zip(branches, windows, strict=True):
         x, y = unit.of(branch.angular_speed), getattr(branch, quantity)
         if quantity.endswith("inclination"):
-            y = np.degrees(y)
-        waves = int(branch.half_waves[0])
-        colour, label = half_waves_style(waves, named)
+            turned = np.degrees(np.unwrap(y))  # no jump from 180 to -180 degrees
+            y = turned - 360.0 * np.round((turned[-1] - np.degrees(y[-1])) / 360.0)
+        if postures:
+            waves = list(postures).index(branch.system._stands.tobytes())
+            colour, label = house(waves), None if waves in named else postures[branch.system._stands.tobytes()]
+            named.add(waves)
+        else:
+            waves = int(branch.half_waves[0])
+            colour, label = half_waves_style(waves, named)
         for low, high, verdict in parts:
             at = np.concatenate([[low], branch.point[(branch.point > low) & (branch.point < high)], [high]])
             line = {"linestyle": LINES.get(verdict, "-"), "color": colour, "linewidth": 1.6}
-            ax.plot(*(np.interp(at, branch.point, each) for each in (x, y)), **line)
+            ax.plot(*(_along(branch, at, each) for each in (x, y)), **line)
         if label:
             curves[ax.plot([], [], color=colour, linewidth=1.6, label=label)[0]] = waves
         of_kind = {
@@ -177,7 +189,7 @@ def _draw(
         }
         for kind, points in of_kind.items():
             for at in np.asarray(points, float) % len(branch):
-                here = [float(np.interp(at, branch.point, each)) for each in (x, y)]
+                here = [_along(branch, at, each).item() for each in (x, y)]
                 marks.append(_Mark(here[0], here[1], colour, kind))
     for mark in marks:
         ax.plot(mark.x, mark.y, color=mark.colour, linestyle="none", **MARKS[mark.kind])
@@ -204,17 +216,21 @@ def _draw(
 def _windows(caller: str, branches: Sequence[Branch], stability: bool | None, frame: str) -> list[_Parts]:
     """Parts of each branch with one verdict; the verdict is empty where the stability is not drawn."""
     driven = is_driven(caller, frame)
+    work = sum(branch._work for branch in branches)
     if stability is None:
         known = not driven and all("_windows" in branch.__dict__ for branch in branches)
-        stability = known or sum(branch._work for branch in branches) <= MOST_JUDGED
+        stability = known or work <= MOST_JUDGED
         required = False
     else:
         required = boolean(caller, "stability", stability)
+    asked = required or getattr(branches, "_stability", False)
+    samples = 1 if work > MOST_JUDGED else SAMPLES if asked else int(min(SAMPLES, MOST_JUDGED // max(work, 1.0)))
     found = []
     for branch in branches:
         parts: _Parts = ()
         if stability and (required or hasattr(branch, "_windows")):
-            parts = branch._judged("driven") if driven else branch._windows
+            fine = samples > 1 and branch._is_of_links
+            parts = branch._judged(frame, samples) if driven or fine else branch._windows
         found.append(parts or ((0.0, len(branch) - 1.0, ""),))
     return found
 
@@ -230,19 +246,45 @@ def _changes(branch: Branch, parts: _Parts) -> list[float]:
     ]
 
 
+def _along(branch: Branch, at: Any, values: Any) -> Any:
+    """Numbers at places along the branch, counted in points: between points the cubic in the arc through four of them."""
+    at = np.atleast_1d(np.asarray(at, float))
+    found = np.interp(at, branch.point, values)
+    if not branch._is_of_links or len(branch) < 4:
+        return found
+    for k in np.flatnonzero(at % 1.0):
+        nearest = slice(first := min(max(int(at[k]) - 1, 0), len(branch) - 4), first + 4)
+        arcs, four = branch.arc[nearest], values[nearest]
+        gaps = np.interp(at[k], branch.point, branch.arc) - arcs
+        found[k] = sum(
+            four[i] * np.prod([gaps[j] / (arcs[i] - arcs[j]) for j in range(4) if j != i]) for i in range(4)
+        )
+    return found
+
+
+def _postures(branches: Sequence[Branch]) -> dict[bytes, str]:
+    """Words for each posture of a diagram with several postures; empty for other diagrams, or if the postures are many."""
+    inverted = getattr(branches, "inverted", None) or ()
+    words = {}
+    for branch, links in zip(branches, inverted, strict=bool(inverted)):
+        up = "all links hang" if links == "none" else f"link{'s' * (', ' in links)} {links} up"
+        words[branch.system._stands.tobytes()] = plain(up)
+    return words if len(words) <= MOST_POSTURES else {}
+
+
 def _label(ax: Axes, marks: list[_Mark]) -> None:
     """Draw dotted lines at folds and pitchforks; their speeds are above the frame, where they hide no loop."""
     left, right = ax.get_xlim()
-    last = -np.inf
-    ticks: list[float] = []
-    labels: list[str] = []
-    for at, _, colour, kind in sorted(marks):
-        ax.axvline(at, color=colour, linestyle=":", linewidth=0.8, zorder=1)
-        if at - last >= CLOSEST * (right - left):
-            ticks.append(at)
-            labels.append(f"{kind} {digits(at, 4)}")
-            last = at
-    if not ticks:
+    points = ax.get_window_extent().width * 72.0 / ax.figure.dpi
+    kept: list[_Mark] = []
+    for mark in sorted(marks):
+        ax.axvline(mark.x, color=mark.colour, linestyle=":", linewidth=0.8, zorder=1)
+        if not kept or mark.x - kept[-1].x >= max(TALL, TALL_POINTS / points) * (right - left):
+            kept.append(mark)
+    if not kept:
         return
+    room = max(WIDE, WIDE_POINTS / points) * (right - left)
+    level = all(after.x - before.x >= room for before, after in pairwise(kept))
     above = ax.secondary_xaxis("top")
-    above.set_xticks(ticks, labels, rotation=0 if len(ticks) <= FEW_MARKS else 90)
+    labels = [f"{mark.kind} {digits(mark.x, 4)}" for mark in kept]
+    above.set_xticks([mark.x for mark in kept], labels, rotation=0 if level else 90)

@@ -111,7 +111,7 @@ def _draw_from(shape: DragShape, ax: Axes, view: str) -> Axes:
 def _draw_shapes(shapes: Sequence[SteadyShape], ax: Axes | None, more: str = "", title: str | None = None) -> Axes:
     """Draw a curve for each shape; dots mark the pins of links, of cords the free end. `more` ends each label."""
     given, system = ax, shapes[0].system if len(shapes) else None
-    wide = max((float(np.ptp([0.0, *shape.offset])) for shape in shapes), default=0.0)
+    wide = float(np.ptp(np.concatenate([[0.0], *(np.asarray(shape.offset) for shape in shapes)])))
     ax = beside_at_rest(system, ax, 6.2, _fitting_height(shapes, wide), across=wide)
     held = any(hasattr(shape, "span") for shape in shapes)
     up = 1.0 if held or (system is not None and system._stands.all()) else -1.0

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from itertools import combinations
 from typing import Any
 
@@ -109,8 +110,16 @@ def branch(
     height, g, turns = _checked(caller, system, min_conical_height, max_angular_speed, gravity, direction)
     number, points = count(caller, "mode", mode), count(caller, "max_points", max_points)
     step = one_positive(caller, "max_step", max_step)
-    found: Any = _core.branch(compiled_system(caller, system, g), number, height, points, step, g, turns)
-    return branch_made(found, system, g, turns)
+    try:
+        found: Any = _core.branch(compiled_system(caller, system, g), number, height, points, step, g, turns)
+    except ValueError as error:
+        begin = re.search(r"leaves the vertical at the conical height ([\d.e+-]+):", str(error))
+        if begin is None or max_angular_speed is None:
+            raise
+        speed = (g / float(begin[1])) ** 0.5
+        what = f"mode {number} leaves the vertical at {speed:.6g} rad/s ({speed * 30 / np.pi:.6g} rpm)"
+        raise ValueError(f"{caller}: {what}; max_angular_speed must be greater, got {shown(max_angular_speed)}") from None
+    return _ended(branch_made(found, system, g, turns), max_angular_speed)
 
 
 @in_unit_of("max_angular_speed")
@@ -149,7 +158,8 @@ def branches(
         Chains and rigs: whether to leave out branches with a link above its upper pin (for a rig: with other links
         inverted than those of the rig). If false, the branches of all ``2**N`` postures are found; N at most 10.
     stability : bool, optional
-        Whether to compute `Branch.verdict` of every branch now; not for cords. Otherwise tables and pictures compute it
+        Whether to draw the windows of stability, list them in reports and compute `Branch.verdict` of every branch now;
+        not for cords. Otherwise tables and pictures compute it
         when they need it, if that takes less than about a second.
 
     Returns
@@ -236,10 +246,18 @@ def branches(
         found: Any = _core.branches(compiled_system(caller, each, g), height, LISTS, most, most // 3, g, turns)
         diagrams.append(branches_made(found, each, g, turns, judged))
     diagram = diagrams[0] if hanging_only else joined(diagrams, system)
+    for branch in diagram:
+        _ended(branch, max_angular_speed)
     if judged:
         for branch in diagram:
             branch.verdict  # noqa: B018  it is stored when first read
     return diagram
+
+
+def _ended(branch: Branch, max_angular_speed: Any) -> Branch:
+    """The branch, which prints that it ends at the largest speed if one was given."""
+    branch.__dict__["_by_speed"] = max_angular_speed is not None
+    return branch
 
 
 def _postures(caller: str, system: Any) -> list[Any]:

@@ -153,7 +153,7 @@ def steady_shapes(
 
     >>> carousel = rc.Rig(rc.Chain(weight=800.0, length=4.0), support=rc.Support(radius=1.0))
     >>> rc.steady_shapes(carousel, angular_speed=1.2566)
-    1 hanging shape at 1.25660 rad/s (12.00 rpm), proved complete; with links above their pins (hanging_only=False) there may be more
+    1 hanging shape at 1.25660 rad/s (12.00 rpm), proved complete; with links above their pins there may be more
     shape  half waves  lowest link (°)  top link (°)  free end: from axis (m)  above support (m)  top tension  error (rad)
         1           1           21.824        21.824                   2.4870            -3.7133       861.76      2.2e-16
     inclinations: from the downward vertical; error: proved bound on every inclination

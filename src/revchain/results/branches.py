@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 Pair = tuple[float, float]
 _Part = tuple[float, float, float, float, str]  # arc at both ends, conical height at both ends, verdict
+OWN = "proved complete in its own posture"
 MOST_JUDGED = 150_000
 """Points times links squared whose stability takes about a second: above it tables and pictures leave it out."""
 
@@ -76,8 +77,8 @@ class StabilityWindows(Results[StabilityWindow], row="window", title="{_title_wo
     >>> rc.branches(chain, max_angular_speed=9.0).stability_windows()
     3 windows of stability of 2 branches, in the free frame
     branch  mode            verdict  from speed (rad/s)  to speed (rad/s)  from height (m)  to height (m)  change at the end
-         0     1            minimum             2.40131           9.00000          1.70069       0.121070                end
-         1     2  spectrally stable             5.79727           8.50090         0.291792       0.135704   Hamiltonian Hopf
+         0     1            minimum             2.39679           9.00000          1.70711       0.121070                end
+         1     2  spectrally stable             5.78636           8.50090         0.292893       0.135704   Hamiltonian Hopf
          1     2           unstable             8.50090           9.00000         0.135704       0.121070                end
     """
 
@@ -186,7 +187,11 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         part=True,
         heading="top tension",
     )
-    half_waves: Field[Whole] = Field("Sign changes of the offsets, plus one.", heading="half waves")
+    half_waves: Field[Whole] = Field(
+        "Sign changes of the offsets, that of the support included, plus one, as in `SteadyShape`.",
+        lambda b: b._half_waves(),
+        heading="half waves",
+    )
     is_fold: Field[NDArray[np.bool_]] = Field(
         "Whether each point is a fold.", lambda b: np.isin(b.point, b.folds), heading="fold", column="fold"
     )
@@ -286,7 +291,8 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         Returns
         -------
         tuple of SteadyShape
-            The shapes in the order of the arc; empty if the branch does not pass the speed.
+            The shapes in the order of the arc. At the speed of a fold, within rounding, it is the one shape of the fold.
+            The tuple is empty if the speed is outside the range of the branch, or that at which it leaves the vertical.
 
         Raises
         ------
@@ -310,7 +316,18 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         if self._shapes is not None:
             what = "is for systems that hang; for a Held ask steady_shapes at the speed"
             raise ValueError(f"{caller}: {what}, got {height:g}")
-        return tuple(shape_made(found, self.system, g, self.direction) for found in self._found().shapes_at(height))
+        shapes = self._found().shapes_at(height)
+        nearest = int(np.argmin(np.abs(self.conical_height - height)))
+        if not shapes and abs(self.conical_height[nearest] - height) <= 8 * np.finfo(float).eps * height:
+            return self._at_point(nearest, g)
+        return tuple(shape_made(found, self.system, g, self.direction) for found in shapes)
+
+    def _at_point(self, k: int, gravity: float) -> tuple[SteadyShape, ...]:
+        """The shape at a point, such as a fold, whose speed is given within rounding; none for the straight chain."""
+        if k == 0 and self.birth == "vertical":
+            return ()
+        proved = {"proved": False} if self.is_fold[k] else {}
+        return (shape_made(self._found().shape(k), self.system, gravity, self.direction, **proved),)
 
     def stability_windows(
         self, *, frame: str = "free", tolerance: float = 1e-6, samples: int = 8, speed: str | None = None
@@ -331,9 +348,9 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         Returns
         -------
         StabilityWindows
-            The windows in the order of the arc, a sequence that prints as a table. They cover the branch except the part
-            from the vertical to the next point, and begin anew at folds, so that the speed rises or falls along each.
-            Edges are located by bisection; `StabilityWindow.change` says what happens there. A window shorter than the
+            The windows in the order of the arc, a sequence that prints as a table. They cover the branch; near the
+            vertical one more shape is examined, a tenth of the way to the next point. They begin anew at folds,
+            so that the speed rises or falls along each. Edges are located by bisection; `StabilityWindow.change` says what happens there. A window shorter than the
             distance of the places can be missed.
 
         Raises
@@ -371,7 +388,7 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         if not self._is_of_links:
             raise ValueError(f"{caller}: is for chains; use the stability of shapes: branch.shape(-1).stability()")
         found = _core.stability_windows(self.system._under(self.gravity), self._found(), driven, wide, places)
-        windows = self._split_at_folds(found, wide)
+        windows = self._split_at_folds(self._from_vertical(found, frame), wide)
         changes = self._changes(windows, frame)
         return [
             StabilityWindow._made(
@@ -384,6 +401,20 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
             )
             for (s0, s1, h0, h1, verdict), change in zip(windows, changes, strict=True)
         ]
+
+    def _from_vertical(self, found: list[_Part], frame: str) -> list[_Part]:
+        """The windows, the first of which begins at the vertical unless the verdict is another one near it."""
+        if not found or self.birth != "vertical" or len(self) < 2:
+            return found
+        s0, s1, h0, h1, verdict = found[0]
+        top = float(self.conical_height[0])
+        near = self.at(conical_height=top + 0.1 * (float(self.conical_height[1]) - top))
+        if near:
+            inclination = self.inclination[1]
+            first = min(near, key=lambda shape: float(np.abs(shape.inclination - inclination).max()))
+            if first.stability(frame=frame).verdict not in (verdict, "undecided"):
+                return found
+        return [(float(self.arc[0]), s1, top, h1, verdict), *found[1:]]
 
     def _split_at_folds(self, found: list[_Part], tolerance: float) -> list[_Part]:
         """The windows, which are split at folds, so that the speed rises or falls all along each."""
@@ -439,15 +470,16 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
             return "momentum fold" if rises[0] * rises[1] > 0 else "zero exponent"
         return "zero exponent"
 
-    def _judged(self, frame: str) -> tuple[tuple[float, float, str], ...]:
-        """Parts of the branch with one verdict: their ends, counted in points, and the verdict."""
+    def _judged(self, frame: str, samples: int = 1) -> tuple[tuple[float, float, str], ...]:
+        """Parts of the branch with one verdict, found with `samples` for each point: ends, counted in points, and verdict."""
         if self.system._is_cord:
             what = "is for links, as each verdict of a cord takes long; ask shapes: branch.shape(-1).stability()"
             raise UnavailableError(f"revchain.Branch.verdict: {what}")
         try:
             if self._is_of_links:
                 system: Any = self.system._under(self.gravity)
-                found = _core.stability_windows(system, self._found(), frame == "driven", 1e-4, 1)
+                tolerance = 1e-4 if samples == 1 else 1e-6
+                found = _core.stability_windows(system, self._found(), frame == "driven", tolerance, samples)
                 parts = [(*np.interp(each[:2], self.arc, self.point).tolist(), each[4]) for each in found]
             else:
                 shapes = [(k, shape) for k in range(len(self)) if (shape := self._shape_or_none(k)) is not None]
@@ -546,6 +578,15 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         turned = np.copysign(np.pi, straight) - straight
         return np.where(getattr(self.system, "inverted", False), turned, straight)
 
+    def _half_waves(self) -> Any:
+        waves, support = self._found().half_waves, self.system._support
+        if support is None or not support.radius or not self._is_of_links:
+            return waves
+        inwards = np.asarray(self.system._base.length) * np.sin(self.inclination)
+        offsets = np.column_stack([self.tip_radius, self.tip_radius[:, None] - np.cumsum(inwards, axis=1)])
+        signs = [np.sign(row[row != 0.0]) for row in offsets]
+        return np.array([1 + np.count_nonzero(np.diff(row)) for row in signs], waves.dtype)
+
     @property
     def _name(self) -> str:
         if self._shapes is None:
@@ -558,7 +599,13 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
     def _extent(self) -> str:
         many = self.folds.size
         folds = f", {many} fold{'s' * (many != 1)}" if many else ""
-        return f"{len(self)} points{folds}, ends at {self.end}"
+        return f"{len(self)} points{folds}, ends at {self._ends_at}"
+
+    _by_speed = False  # whether the question gave a speed, not a conical height
+
+    @property
+    def _ends_at(self) -> str:
+        return "largest speed" if self.end == "height" and self._by_speed else self.end
 
 
 class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", good="complete"):
@@ -568,7 +615,10 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
     isolated branches, which start at folds, follow. With ``hanging_only=False`` those of the other postures come after
     them, posture by posture. Those of a held system are ordered by half waves.
 
-    The printed table has a row for each branch; data frames, dictionaries and CSV files have one for each point.
+    The printed table has a row for each branch; data frames, dictionaries and CSV files have one for each point, with its
+    verdict. A verdict can change twice between two points: `stability_windows` has the windows, which no such file holds.
+    The command line reports a failed search unless the diagram is `complete`; with ``hanging_only=False`` it is enough that
+    the branches of the own posture are proved complete and the others are `consistent`.
 
     Examples
     --------
@@ -611,7 +661,10 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
         unit="rad/s",
     )
     end: Field[tuple[str, ...]] = Field(
-        "`Branch.end` of each branch.", lambda b: tuple(each.end for each in b), heading="ends at"
+        "`Branch.end` of each branch; printed as ``largest speed`` instead of ``height`` if a speed was given.",
+        lambda b: tuple(each.end for each in b),
+        heading="ends at",
+        shown=lambda b: [each._ends_at for each in b],
     )
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", fact=True)
     direction: Field[int] = Field("Direction of rotation, 1 or -1; only a rig with flywheels depends on it.", fact=True)
@@ -635,6 +688,24 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
     looked_at: Field[Floats] = Field("Conical heights at which all shapes were listed, m, descending.", fact=True)
 
     _stability: Field[bool] = Field("Whether the verdicts were asked for, so that reports list the windows.")
+
+    def _is_good(self) -> bool:
+        """Return whether everything was found and proved; of other postures only consistent lists are required."""
+        return super()._is_good() or (self._is_of_postures and self.consistent and self.remark.startswith(OWN))
+
+    @property
+    def _is_of_postures(self) -> bool:
+        return not (self.hanging_only or self.system._is_cord or self.system._is_held)
+
+    @property
+    def _of_shapes(self) -> str:
+        """The shapes for which ``complete`` is proved, in words."""
+        if self.system._is_cord or self.system._is_held or self._is_of_postures and self.complete:
+            return "steady shapes"
+        inverted = getattr(self.system, "inverted", None)  # of a rig
+        if inverted is None and self.system.size == 1:
+            return "steady shapes"
+        return "hanging shapes" if inverted is None or not np.any(inverted) else "shapes in this posture"
 
     def stability_windows(
         self, *, frame: str = "free", tolerance: float = 1e-6, samples: int = 8, speed: str | None = None
@@ -707,7 +778,8 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
         isolated = sum(each.mode is None for each in self)
         begin = "from rest" if self and self[0].birth == "rest" else "from the vertical"
         which = "Branches" if self.inverted is None else "Branches in every posture"
-        return f"{which}: {len(self) - isolated} {begin}, {isolated} isolated; {self.remark}"
+        remark = f"proved complete: no branch of {self._of_shapes} is missing" if self.complete else self.remark
+        return f"{which}: {len(self) - isolated} {begin}, {isolated} isolated; {remark}"
 
 
 def _by_link(column: Column, system: Any) -> list[Column]:
@@ -798,7 +870,7 @@ def joined(diagrams: Sequence[Branches], system: Any) -> Branches:
         remark = first.remark
     elif consistent:
         remark = (
-            f"{'proved complete in its own posture' if first.complete else first.remark}; in the others each shape of the "
+            f"{OWN if first.complete else first.remark}; in the others each shape of the "
             "proved lists is on one branch, but loops between two of the heights looked at are not excluded"
         )
     else:

@@ -717,8 +717,7 @@ class SteadyShapes(Results[SteadyShape], Moving, row="shape", title="{_heading}"
         if not self._posture():
             return words
         others = "with links above their pins" if self._posture() == "hanging" else "in other postures"
-        more = f"{others} (hanging_only=False)"
-        return f"{words}; {more} there may be more" if self.complete else f"{words}, also {more}"
+        return f"{words}; {others} there may be more" if self.complete else f"{words}, also {others}"
 
     @property
     def _note(self) -> str:

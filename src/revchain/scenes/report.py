@@ -140,7 +140,10 @@ def shortfall(found: Any) -> str:
     if isinstance(found, Modes):
         reached = f": asked {found.rtol:g}, reached {found.error_bound.max():.1e}" if found.rtol is not None else ""
         return "the tolerance is not met" + reached
-    return "not proved to be all there is"
+    if isinstance(found, Branches):
+        return f"the branches are not proved to be all: {found.remark}"
+    what = "shapes" if isinstance(found, SteadyShapes) else type(found).__name__.lower()
+    return f"the {what} are not proved to be all: the search ended before its proof"
 
 
 @dataclass(frozen=True)
@@ -242,7 +245,8 @@ def _of_branches(found: Branches) -> list[Verdict]:
     if not getattr(found, "complete", False):
         remark = f" {_sentence(found.remark)}" if hasattr(found, "remark") else ""
         return [] if not found._is_good() else [Verdict("open", f"There may be more branches.{remark}")]
-    return [Verdict("proved", "Complete: no branch of steady shapes is missing up to this speed.")]
+    more = " Branches with links above their pins were not searched for." if found._of_shapes == "hanging shapes" else ""
+    return [Verdict("proved", f"Complete: no branch of {found._of_shapes} is missing up to this speed.{more}")]
 
 
 def _of_campbell(found: Campbell) -> list[Verdict]:

@@ -349,7 +349,10 @@ class AskBranches(Table, frozen=True):
         bool, says("Leave out branches with links above their pins (of a rig: inverted otherwise than in the scene).")
     ] = True
     stability: Annotated[
-        bool, says("List the windows of stability, and write the verdict at each point, however long it takes.")
+        bool, says(
+            "List the windows of stability in the terminal, the report and JSON, and write the verdict at each point to "
+            "JSON and CSV, however long it takes."
+        ),
     ] = False
 
 
