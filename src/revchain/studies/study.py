@@ -55,7 +55,7 @@ class Study(Table, frozen=True):
         Seed of the random numbers.
     find : list of {"modes", "shapes", "response", "campbell", "drag", "equilibria"}, optional
         Questions to answer. ``"angular_speed"``, ``"rpm"``, ``"frequency"`` and ``"period"`` store the speeds of modes in
-        these units, and nothing else of modes. If left out, those for which the scene has a table; if it has none, its modes, or the
+        these units; with ``"modes"`` beside it also all else of modes. If left out, those for which the scene has a table; if it has none, its modes, or the
         equilibria of a governor.
     max_shapes : int
         Largest number of stored steady shapes, or equilibria of a governor, of each point.
@@ -258,13 +258,13 @@ class Study(Table, frozen=True):
         bounds = links is None if isinstance(self.error_bounds, UnsetType) else self.error_bounds
         outputs = outputs_of(scene, _largest(base, axes, source), find, self.max_shapes, bounds)
         columns = {"point", "status", "sample", *(output.along for output in OUTPUTS.values()), *outputs}
-        ways = tuple(dict.fromkeys(name for name in WAYS if name in find_given)) if "modes" not in find_given else ()
-        columns.update(*(columns_of(*output) for output in outputs.items()), ways)
+        ways = tuple(name for name in WAYS if name in find_given)
+        columns.update(*(columns_of(*output) for output in outputs.items()), find_given)
         columns.update(SPEEDS * self.scatter.worst)
         for axis in axes:
             if axis.name in columns:
                 numbers.of(joined("vary", axis.key)).refuse("name", f"{axis.name} is the name of a result")
-        plan = Plan(base, axes, shape, self.seed, find, outputs, ways, links)
+        plan = Plan(base, axes, shape, self.seed, find, outputs, ways, links, not ways or "modes" in find_given)
         if self.scatter.worst and not numbers.problems and (reason := why_no_worst(plan)):
             numbers.refuse("scatter.worst", reason)
         if plan.points > MAX_POINTS:
