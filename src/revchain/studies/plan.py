@@ -234,11 +234,11 @@ def asked_of(scene: Scene, wanted: Sequence[str] | UnsetType, numbers: Numbers) 
 
 
 def outputs_of(
-    scene: Scene, largest: Scene, find: tuple[str, ...], max_shapes: int, bounds: bool, rolls: bool = False
+    scene: Scene, largest: Scene, find: tuple[str, ...], max_shapes: int, bounds: bool, varied: bool
 ) -> Labels:
     """The outputs of a study; `largest` is the scene of the point with the most modes.
 
-    `rolls` says that the support is free at all points, so that the motion of the whole along it is no mode.
+    `varied` says that a varied number may give the top pin inertia, a spring, or neither.
     """
     spins = getattr(scene.system(), "has_momentum", False)
     kinds = ["", *["rig"] * scene.is_rigged, *(["spinning"] if spins else ["still", *["still rig"] * scene.is_rigged])]
@@ -248,7 +248,7 @@ def outputs_of(
     several = tuple(range(1, max_shapes + 1))
     labels: dict[str, tuple[int, ...]] = {"": (), "shape": several, "equilibrium": several}
     if "modes" in find:
-        labels["mode"] = _modes_of(scene, largest, rolls)
+        labels["mode"] = _modes_of(scene, largest, varied)
     if not isinstance(ask := scene.ask.campbell, UnsetType) and "campbell" in find:
         labels["order"] = (1, 2) if isinstance(ask.orders, UnsetType) else tuple(dict.fromkeys(ask.orders))
     for name, dimension in (("response", "speed"), ("campbell", "campbell_speed")):
@@ -277,15 +277,14 @@ def columns_of(name: str, labels: tuple[int, ...]) -> list[str]:
     return [f"{name}_{label}" for label in labels] or [name]
 
 
-def _modes_of(scene: Scene, largest: Scene, rolls: bool) -> tuple[int, ...]:
+def _modes_of(scene: Scene, largest: Scene, varied: bool) -> tuple[int, ...]:
     """Numbers of the modes with columns: those asked for, at most those of the point with the most modes."""
     ask = scene.ask.modes
     system: Any = largest.system()
     ask = AskModes() if isinstance(ask, UnsetType) else ask
     first = 1 if isinstance(ask.first, UnsetType) else ask.first
     if system._kind == "rig":
-        moves = not rolls and (system.support.stiffness < math.inf or scene.support is not largest.support)
-        there = 2 * (system.size + 1) if system.has_momentum else system.size + moves  # in each direction
+        there = 2 * (system.size + 1) if system.has_momentum else system.size + (varied or _top_moves(system))
     else:
         there = system.size if system._kind == "chain" else system.mode_count or DEFAULT_MODES
     there = max(there - first + 1, 1)
@@ -294,6 +293,13 @@ def _modes_of(scene: Scene, largest: Scene, rolls: bool) -> tuple[int, ...]:
     else:
         count = there if ask.count == "all" else min(DEFAULT_MODES, there)
     return tuple(range(first, first + count))
+
+
+def _top_moves(rig: Any) -> bool:
+    """Whether the top pin adds a mode: it is on a spring, and has inertia. A trolley that rolls freely has no such mode."""
+    top = rig.chain
+    is_plummet = top.centroid[-1] == top.length[-1] and top.radius_of_gyration[-1] == 0 and rig.displaced is None
+    return bool(0 < rig.support.stiffness < math.inf and (rig.support.carriage or not is_plummet))
 
 
 def _turns(scene: Scene) -> bool:

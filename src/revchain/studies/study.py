@@ -256,10 +256,12 @@ class Study(Table, frozen=True):
         shape = (*grids, samples) if random else tuple(grids)
         links = links_of(scene, axes) if batched else None
         bounds = links is None if isinstance(self.error_bounds, UnsetType) else self.error_bounds
-        outputs = outputs_of(scene, _largest(base, axes, source), find, self.max_shapes, bounds)
+        of_top = ("centroid", "radius_of_gyration", "kind")
+        varied = any(axis.path[0] == "support" or axis.path[-1] in of_top for axis in axes)
+        outputs = outputs_of(scene, _largest(base, axes, source), find, self.max_shapes, bounds, varied)
         columns = {"point", "status", "sample", *(output.along for output in OUTPUTS.values()), *outputs}
         ways = tuple(name for name in WAYS if name in find_given)
-        columns.update(*(columns_of(*output) for output in outputs.items()), find_given)
+        columns.update(*(columns_of(*output) for output in outputs.items()), ways)
         columns.update(SPEEDS * self.scatter.worst)
         for axis in axes:
             if axis.name in columns:
