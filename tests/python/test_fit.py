@@ -364,3 +364,11 @@ def test_without_scipy(python, without):
         "except ImportError as error: print(error)\n"
     )
     assert python("-c", program).stdout == 'revchain.fit needs scipy: pip install "revchain[fit]"\n'
+
+
+def test_why_there_is_no_standard_uncertainty():
+    line = "no standard uncertainties: there are as many data as speeds, and the measurements have no uncertainties"
+    paths = ["links[0].length", "links[1].length"]
+    assert line in repr(rc.fit(CRANE, {1: 0.57, 2: 3.9}, vary=paths))
+    assert line not in repr(rc.fit(CRANE, {1: (0.57, "1 %"), 2: (3.9, "1 %")}, vary=paths))
+    assert line not in repr(rc.fit(CRANE, {1: 0.57, 2: 3.9}, vary="length"))

@@ -417,3 +417,29 @@ def test_a_scene_and_a_study_have_one_word_for_the_length():
         rc.Scene.from_dict({"links": [{"mass": 1.0, "length_in_proportion": 1.0}]})
     with pytest.raises(rc.SceneError, match=hint):
         rc.Study.from_dict({"scene": {"links": links}, "vary": {"links[0].length_in_proportion": {"values": [1, 2]}}})
+
+
+@pytest.mark.parametrize(
+    ("path", "message"),
+    [
+        ("links[-1].mass", r"links\[-1\]: indices start at 0"), ("links[*].mass", "there is no wildcard; write a path for each link"),
+        ("link[b].mass", r'did you mean "links\[b\].mass"'), ("flywheel[0].momentum", r'did you mean "flywheels\[0\].momentum"'),
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize("system", [UP, DOWN, rc.Chain(mass=[1.0, 2.0], length=1.0), rc.Rig(UP, **RIG)])
+def test_almost_a_path(path, message, system):
+    for call in (lambda: rc.tune(system, vary=path, angular_speed=1.0), lambda: rc.fit(system, {1: 1.0}, vary=path),
+                 lambda: rc.modes(system).uncertainty({path: 1.0})):  # fmt: skip
+        with pytest.raises(ValueError, match=message):
+            call()
+    if "links" in path:
+        with pytest.raises(rc.SceneError, match=message):
+            rc.Study.from_dict({"scene": {"links": [{"mass": 1, "length": 1}]}, "vary": {path: {"values": [1, 2]}}})
+
+
+def test_the_list_of_paths_has_gravity():
+    for call in (lambda: rc.tune(UP, vary="g", angular_speed=1.0), lambda: rc.fit(UP, {1: 1.0}, vary="g")):
+        with pytest.raises(ValueError, match='"gravity"'):
+            call()
+    with pytest.raises(ValueError, match="data must be one of (?!.*gravity)"):
+        rc.modes(UP).uncertainty({"g": 1.0})

@@ -333,3 +333,15 @@ def test_a_study_has_the_modes_that_exist(support, vary, modes):
     found = rc.sweep({"scene": {"links": links, "support": support}, "vary": {"links[0].mass": {"values": [2400, 2600]}, **vary}})
     assert found["angular_speed"].sizes["mode"] == modes and np.isfinite(found["angular_speed"].to_numpy()).all()
     assert not any("forward" in name or "backward" in name for name in found.data_vars)
+
+
+def test_shapes_and_drag_at_two_speeds_are_refused():
+    links = [{"mass": 1.0, "length": 1.0, "air_drag": {"coefficient": 1.1, "diameter": "5 mm"}}]
+    scene = {"links": links, "support": {"radius": 0.5}, "ask": {"shapes": {"angular_speed": 2.0}, "drag": {"angular_speed": 2.0}}}
+    speeds = {"values": [1.0, 2.0]}
+    one, other = ({f"ask.{question}.angular_speed": speeds} for question in ("shapes", "drag"))
+    for vary, stays in ((one, "drag"), (other, "shapes")):
+        with pytest.raises(rc.SceneError, match=rf"leaves the speed of \[ask.{stays}\] as it is: write find"):
+            rc.Study.from_dict({"scene": scene, "vary": vary, "find": ["shapes", "drag"]})
+    assert rc.Study.from_dict({"scene": scene, "vary": one, "find": ["shapes"]}).points == 2
+    assert rc.Study.from_dict({"scene": scene, "vary": {**one, **other}, "find": ["shapes", "drag"]}).points == 4

@@ -251,6 +251,7 @@ class Study(Table, frozen=True):
         assert isinstance(scene, Scene)
         find_given = () if isinstance(self.find, UnsetType) else self.find
         batched = find == ("modes",) and self.error_bounds is not True
+        _refuse_two_speeds(axes, find, numbers)
         samples = 1 if isinstance(self.samples, UnsetType) else self.samples
         grids = [axis.values.size for axis in axes if axis.values is not None]
         shape = (*grids, samples) if random else tuple(grids)
@@ -324,6 +325,16 @@ def _refuse_twice(axes: tuple[Axis, ...], numbers: Numbers) -> None:
             shorter = min(axis.path, other.path, key=len)
             if axis.path[: len(shorter)] == other.path[: len(shorter)]:
                 caller.refuse("", f"is varied by {joined('vary', other.key)}, too")
+
+
+def _refuse_two_speeds(axes: tuple[Axis, ...], find: tuple[str, ...], numbers: Numbers) -> None:
+    """Note an error if the speed of [ask.shapes] or [ask.drag] is varied while the other, which is found too, stays at its own."""
+    speeds = {axis.path[1]: axis for axis in axes if axis.path[0] == "ask" and axis.path[-1] in ("angular_speed", "conical_height")}
+    varied = [question for question in ("shapes", "drag") if question in speeds]
+    if len(varied) == 1 and {"shapes", "drag"} <= set(find):
+        other = "drag" if varied[0] == "shapes" else "shapes"
+        why = f'leaves the speed of [ask.{other}] as it is: write find = ["{varied[0]}"], and a study of its own for "{other}"'
+        numbers.of(joined("vary", speeds[varied[0]].key)).refuse("", why)
 
 
 def _check(base: dict[str, Any], axis: Axis, numbers: Numbers) -> None:

@@ -100,9 +100,8 @@ def datum_at(caller: str, system: Any, path: Any, gravity: float, argument: str 
                 f"{caller}: support.radius has no effect on the speeds of small oscillations, only on response and "
                 f"steady_shapes; vary another datum, got {shown(said)}"
             )
-        if isinstance(name, str) and re.sub(r"^([a-z]+)\[", r"\1s[", name) in known:
-            right = str(said).replace("[", "s[", 1)
-            raise ValueError(f'{caller}: {argument}: did you mean "{right}"? got {shown(said)}')
+        if isinstance(said, str) and re.match(r"(link|flywheel|pin)\[", said):
+            raise ValueError(f'{caller}: {argument}: did you mean "{said.replace("[", "s[", 1)}"? got {shown(said)}')
         known += ["gravity"] * (argument == "vary")
         listed = ", ".join(f'"{one}"' for one in known)
         names = ", ".join(dict.fromkeys(filter(None, system._listed_names[:_MOST_NAMES])))
@@ -125,10 +124,6 @@ def _counted(caller: str, system: Any, path: Any, argument: str) -> Any:
     if not isinstance(path, str) or not path.startswith(OF_LINKS) or system._is_cord:
         return path
     try:
-        if re.match(r"[a-z]+\[-\d+\]", path):
-            raise ValueError(f"indices start at 0, got {shown(path)}")
-        if re.match(r"[a-z]+\[\*\]", path) and "*" not in system._listed_names:
-            raise ValueError(f"there is no wildcard: write a path for each link, got {shown(path)}")
         path = numbered(path, system._listed_names)
     except ValueError as error:
         raise ValueError(f"{caller}: {argument}: {error}") from None
