@@ -344,7 +344,8 @@ def test_the_result():
     with pytest.raises(KeyError, match="path must be one of length, got 'mass'"):
         found["mass"]
     np.testing.assert_array_equal(found.residual, found.measured - found.computed)
-    np.testing.assert_array_equal(found.normalized_residual, found.residual / found.measured_uncertainty)
+    in_periods = found.residual * (found.measured / found.computed) / found.measured_uncertainty  # of a period in that of the period
+    np.testing.assert_allclose(found.normalized_residual, in_periods, rtol=1e-12)
     assert found.chi_square == pytest.approx((found.normalized_residual**2).sum(), rel=1e-12)
     assert found.to_dataframe().loc["length", "value"] == found["length"]
     assert found.to_xarray()["covariance"].dims == ("datum", "other_datum")

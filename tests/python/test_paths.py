@@ -165,7 +165,7 @@ REFUSED = [
     (rc.Chain(mass=[1.0, 2.0], length=1.0, names=["a", "a"]), "links[a].mass", r'2 links are named "a"; write an index: links\[0\]'),
     (rc.Cord(1.0, mass=1.0), "links[load].mass", 'vary must be one of "length", "mass", "tip_mass"'),
     (rc.Rig(UP), "flywheels[lod].momentum", 'no link is named "lod"; did you mean "load"'),
-    (UP, "links[-1].mass", 'no link is named "-1"'),
+    (UP, "links[-1].mass", 'indices start at 0'),
 ]
 
 
