@@ -141,7 +141,9 @@ def _summary(found: Dataset) -> list[str]:
 
 def _opposite(name: str) -> str:
     """The name of the other end of an interval of speeds."""
-    return re.sub("^(lowest|highest)_(?=angular_speed$|reached$)", lambda end: "highest_" if end[1] == "lowest" else "lowest_", name)
+    end, _, rest = name.partition("_")
+    other = {"lowest": "highest", "highest": "lowest"}.get(end)
+    return f"{other}_{rest}" if other and rest in ("angular_speed", "reached") else name
 
 
 def _as_period(name: str) -> str:

@@ -227,7 +227,7 @@ def worst_of_modes(
 
 
 def _without_lowest_pin(width: Floats, system: Any) -> Floats:
-    """The half-widths of the distances of pins, 0 for the lowest link: nothing hangs on its lower pin, which has no effect."""
+    """The half-widths of the distances of pins, 0 for the lowest link: nothing hangs on its lower pin."""
     return np.where(np.arange(system.size) == 0, 0.0, width)
 
 

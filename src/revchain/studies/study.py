@@ -55,7 +55,8 @@ class Study(Table, frozen=True):
         Seed of the random numbers.
     find : list of {"modes", "shapes", "response", "campbell", "drag", "equilibria"}, optional
         Questions to answer. ``"angular_speed"``, ``"rpm"``, ``"frequency"`` and ``"period"`` store the speeds of modes in
-        these units; with ``"modes"`` beside it also all else of modes. If left out, those for which the scene has a table; if it has none, its modes, or the
+        these units; with ``"modes"`` beside it also all else of modes. If left out,
+        those for which the scene has a table; if it has none, its modes, or the
         equilibria of a governor.
     max_shapes : int
         Largest number of stored steady shapes, or equilibria of a governor, of each point.
@@ -328,12 +329,14 @@ def _refuse_twice(axes: tuple[Axis, ...], numbers: Numbers) -> None:
 
 
 def _refuse_two_speeds(axes: tuple[Axis, ...], find: tuple[str, ...], numbers: Numbers) -> None:
-    """Note an error if the speed of [ask.shapes] or [ask.drag] is varied while the other, which is found too, stays at its own."""
-    speeds = {axis.path[1]: axis for axis in axes if axis.path[0] == "ask" and axis.path[-1] in ("angular_speed", "conical_height")}
+    """Note an error if the speed of [ask.shapes] or [ask.drag] is varied while the other, which is found too, is constant."""
+    names = ("angular_speed", "conical_height")
+    speeds = {str(axis.path[1]): axis for axis in axes if axis.path[0] == "ask" and axis.path[-1] in names}
     varied = [question for question in ("shapes", "drag") if question in speeds]
     if len(varied) == 1 and {"shapes", "drag"} <= set(find):
         other = "drag" if varied[0] == "shapes" else "shapes"
-        why = f'leaves the speed of [ask.{other}] as it is: write find = ["{varied[0]}"], and a study of its own for "{other}"'
+        one = varied[0]
+        why = f'leaves the speed of [ask.{other}] as it is: write find = ["{one}"], and a study of its own for "{other}"'
         numbers.of(joined("vary", speeds[varied[0]].key)).refuse("", why)
 
 

@@ -102,7 +102,7 @@ def datum_at(caller: str, system: Any, path: Any, gravity: float, argument: str 
             )
         if isinstance(said, str) and re.match(r"(link|flywheel|pin)\[", said):
             raise ValueError(f'{caller}: {argument}: did you mean "{said.replace("[", "s[", 1)}"? got {shown(said)}')
-        known += ["gravity"] * (argument == "vary")
+        known[-1:-1] = ["gravity"] * (argument == "vary")
         listed = ", ".join(f'"{one}"' for one in known)
         names = ", ".join(dict.fromkeys(filter(None, system._listed_names[:_MOST_NAMES])))
         by_name = f" (k: an index or a name, {names})" if names else ""
@@ -264,7 +264,7 @@ def _of_rig(caller: str, rig: Rig, path: str, link: int | None, gravity: float) 
         return Datum(path, float(column[link]), dragged, typical)
     if where == "" or where.startswith("links"):
         own = _of_chain(caller, chain, path, link, gravity)
-        follows = fluid is not None and name in _LENGTHS and own.path != f"{where}.length"  # the displaced fluid may change with it
+        follows = fluid is not None and name in _LENGTHS and own.path != f"{where}.length"  # the fluid may follow
         return replace(own, change=lambda x: made(chain=own.change(x)), rate=None if follows else own.rate)
     whole, long = chain._compiled.total_weight, chain.total_length
     if where == "support":
