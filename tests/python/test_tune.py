@@ -164,7 +164,7 @@ def test_where_to_look_and_what_was_seen():
         (FIRM, {"vary": "support.radius"}, "support.radius has no effect on the speeds of small oscillations"),
         (FIRM, {"vary": "links[0].weight"}, 'given by mass: vary "links\\[0\\].mass"'),
         (PAIR, {"vary": "mass"}, 'ratios alone; vary "links\\[k\\].mass"'),
-        (FIRM, {"vary": "flywheels[0].spin"}, 'vary must be one of .*"flywheels\\[k\\].momentum" of a Rig, got'),
+        (FIRM, {"vary": "flywheels[0].spin"}, 'vary must be one of .*"flywheels\\[k\\].momentum", "gravity" of a Rig, got'),
         (FIRM, {"vary": "links[4].mass"}, "the highest is links\\[0\\]"),
         (CARRIED, {"vary": "support.mass", "mode": 3}, "mode must be from 1 to 2, the number of modes in a direction, got 3"),
         (rc.Held(PAIR, tension=60.0), {"vary": "tension", "mode": 3}, "mode must be from 1 to 1, the number of modes, got 3"),

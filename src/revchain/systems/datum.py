@@ -102,7 +102,7 @@ def datum_at(caller: str, system: Any, path: Any, gravity: float, argument: str 
             )
         if isinstance(said, str) and re.match(r"(link|flywheel|pin)\[", said):
             raise ValueError(f'{caller}: {argument}: did you mean "{said.replace("[", "s[", 1)}"? got {shown(said)}')
-        known[-1:-1] = ["gravity"] * (argument == "vary")
+        known += ["gravity"] * (argument == "vary")
         listed = ", ".join(f'"{one}"' for one in known)
         names = ", ".join(dict.fromkeys(filter(None, system._listed_names[:_MOST_NAMES])))
         by_name = f" (k: an index or a name, {names})" if names else ""
