@@ -344,7 +344,8 @@ def test_the_result():
     with pytest.raises(KeyError, match="path must be one of length, got 'mass'"):
         found["mass"]
     np.testing.assert_array_equal(found.residual, found.measured - found.computed)
-    np.testing.assert_array_equal(found.normalized_residual, found.residual / found.measured_uncertainty)
+    in_periods = found.residual * (found.measured / found.computed) / found.measured_uncertainty  # of a period in that of the period
+    np.testing.assert_allclose(found.normalized_residual, in_periods, rtol=1e-12)
     assert found.chi_square == pytest.approx((found.normalized_residual**2).sum(), rel=1e-12)
     assert found.to_dataframe().loc["length", "value"] == found["length"]
     assert found.to_xarray()["covariance"].dims == ("datum", "other_datum")
@@ -364,3 +365,11 @@ def test_without_scipy(python, without):
         "except ImportError as error: print(error)\n"
     )
     assert python("-c", program).stdout == 'revchain.fit needs scipy: pip install "revchain[fit]"\n'
+
+
+def test_why_there_is_no_standard_uncertainty():
+    line = "no standard uncertainties: there are as many data as speeds, and the measurements have no uncertainties"
+    paths = ["links[0].length", "links[1].length"]
+    assert line in repr(rc.fit(CRANE, {1: 0.57, 2: 3.9}, vary=paths))
+    assert line not in repr(rc.fit(CRANE, {1: (0.57, "1 %"), 2: (3.9, "1 %")}, vary=paths))
+    assert line not in repr(rc.fit(CRANE, {1: 0.57, 2: 3.9}, vary="length"))

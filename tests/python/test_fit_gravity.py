@@ -232,7 +232,11 @@ def test_what_cannot_be_told():
     one = rc.fit(crane, {1: ("10.2 s", "0.02 s"), 2: ("1.60 s", "0.01 s")}, vary="length")
     assert np.ptp(np.abs(one.standardized_residual)) < 1e-6 * abs(one.standardized_residual[0])
     assert one.disagreeing == (1, 2) and "modes 1 and 2 disagree: " in repr(one)
-    assert "measure more modes to tell which of them is wrong" in repr(one)
+    assert "; measure them again" in repr(one)  # a chain of two point masses has no other modes
+    three = rc.Chain(mass=[2500, 400, 100], length=[6, 24, 3])
+    assert "measure more modes to tell which of them is wrong" in repr(
+        rc.fit(three, {1: ("10.2 s", "0.02 s"), 2: ("1.60 s", "0.01 s")}, vary="length")
+    )
     bare = rc.fit(crane, {1: "10.2 s", 2: "1.60 s"}, vary="length")
     assert np.isnan(bare.standardized_residual).all() and math.isnan(bare.disagreement_limit) and bare.disagreeing == ()
     full = rc.fit(crane, {1: ("10.2 s", "0.02 s"), 2: ("1.60 s", "0.01 s")}, vary=["length", "links[0].mass"])

@@ -165,7 +165,7 @@ REFUSED = [
     (rc.Chain(mass=[1.0, 2.0], length=1.0, names=["a", "a"]), "links[a].mass", r'2 links are named "a"; write an index: links\[0\]'),
     (rc.Cord(1.0, mass=1.0), "links[load].mass", 'vary must be one of "length", "mass", "tip_mass"'),
     (rc.Rig(UP), "flywheels[lod].momentum", 'no link is named "lod"; did you mean "load"'),
-    (UP, "links[-1].mass", 'no link is named "-1"'),
+    (UP, "links[-1].mass", 'indices start at 0'),
 ]
 
 
@@ -368,3 +368,78 @@ def test_unnamed_links_of_a_scene_are_called_by_their_index_in_the_file():
     assert up.names == ("load", "links[1]", "links[1]", "links[2]")
     found = rc.modes(down).uncertainty(mass=[0, 0, 0, 0.1]).largest
     assert set(found) == {"links[0].mass"} and datum_at("", down, "links[0].mass", G).present == 3
+
+
+# ---- the length of a link means the same everywhere
+
+
+MIXED = rc.Chain(mass=[2.0, 1.0, 3.0], length=[0.5, 0.6, 0.7], centroid=[0.5, 0.3, 0.2], radius_of_gyration=[0.0, 0.6 / 12**0.5, 0.1])
+
+
+@pytest.mark.parametrize(("k", "follows"), [(0, True), (1, True), (2, False)])
+def test_the_length_of_a_link_moves_what_follows_from_it(k, follows):
+    """Point masses at their lower pins and uniform rods keep their form; of other bodies only the lower pin moves."""
+    datum, factor = datum_at("here", MIXED, f"links[{k}].length", 9.81), 1.1
+    changed = datum.change(factor * MIXED.length[k])
+    assert changed.length[k] == pytest.approx(factor * MIXED.length[k], rel=1e-15) and datum.said == f"links[{k}].length"
+    for name in ("centroid", "radius_of_gyration"):
+        now, before = getattr(changed, name), getattr(MIXED, name)
+        assert now[k] == pytest.approx(before[k] * (factor if follows else 1.0), rel=1e-15)
+        np.testing.assert_array_equal(np.delete(now, k), np.delete(before, k))
+    modes = rc.modes(MIXED)
+    by_path = modes.uncertainty({f"links[{k}].length": 0.01})
+    spread = np.where(np.arange(3) == k, 0.01, 0.0)
+    want = modes.uncertainty(**{"length_in_proportion" if follows else "length": spread})
+    np.testing.assert_allclose(by_path.angular_speed, want.angular_speed, rtol=1e-13)
+
+
+def test_the_length_of_a_point_mass_in_tune_fit_and_the_worst_case():
+    tuned = rc.tune(rc.Chain(mass=1, length=1.0), vary="links[0].length", mode=1, angular_speed=2.0)
+    assert tuned.value == pytest.approx(9.80665 / 4, rel=1e-14)
+    crane = rc.Chain(mass=[2500.0, 400.0], length=[6.0, 24.0])
+    worst = rc.modes(crane).uncertainty({"links[1].length": 1.0}, worst=True).worst
+    for upper in np.linspace(23.0, 25.0, 11):
+        speed = rc.modes(rc.Chain(mass=[2500.0, 400.0], length=[6.0, upper])).angular_speed
+        assert (worst.lowest_angular_speed <= speed).all() and (speed <= worst.highest_angular_speed).all()
+    there = rc.Chain(mass=[2500.0, 400.0], length=[6.0, 24.7])
+    measured = dict(enumerate(rc.modes(there).angular_speed.tolist(), 1))
+    assert rc.fit(crane, measured, vary="links[1].length").system.centroid[1] == pytest.approx(24.7, rel=1e-9)
+    with pytest.raises(ValueError, match="are the same number"):
+        rc.modes(crane).uncertainty({"links[1].length": 1.0, "links[1].length_in_proportion": 1.0})
+    with pytest.raises(ValueError, match='have "links|has "links|change the same number'):
+        rc.fit(crane, measured, vary=["links[1].length", "links[1].centroid"])
+
+
+def test_a_scene_and_a_study_have_one_word_for_the_length():
+    hint = "write length: centroid and radius of gyration follow unless they are given"
+    links = [{"mass": 1.0, "length": 1.0}]
+    with pytest.raises(rc.SceneError, match=hint):
+        rc.Scene.from_dict({"links": [{"mass": 1.0, "length_in_proportion": 1.0}]})
+    with pytest.raises(rc.SceneError, match=hint):
+        rc.Study.from_dict({"scene": {"links": links}, "vary": {"links[0].length_in_proportion": {"values": [1, 2]}}})
+
+
+@pytest.mark.parametrize(
+    ("path", "message"),
+    [
+        ("links[-1].mass", r"links\[-1\]: indices start at 0"), ("links[*].mass", "there is no wildcard; write a path for each link"),
+        ("link[b].mass", r'did you mean "links\[b\].mass"'), ("flywheel[0].momentum", r'did you mean "flywheels\[0\].momentum"'),
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize("system", [UP, DOWN, rc.Chain(mass=[1.0, 2.0], length=1.0), rc.Rig(UP, **RIG)])
+def test_almost_a_path(path, message, system):
+    for call in (lambda: rc.tune(system, vary=path, angular_speed=1.0), lambda: rc.fit(system, {1: 1.0}, vary=path),
+                 lambda: rc.modes(system).uncertainty({path: 1.0})):  # fmt: skip
+        with pytest.raises(ValueError, match=message):
+            call()
+    if "links" in path:
+        with pytest.raises(rc.SceneError, match=message):
+            rc.Study.from_dict({"scene": {"links": [{"mass": 1, "length": 1}]}, "vary": {path: {"values": [1, 2]}}})
+
+
+def test_the_list_of_paths_has_gravity():
+    for call in (lambda: rc.tune(UP, vary="g", angular_speed=1.0), lambda: rc.fit(UP, {1: 1.0}, vary="g")):
+        with pytest.raises(ValueError, match='"gravity"'):
+            call()
+    with pytest.raises(ValueError, match="data must be one of (?!.*gravity)"):
+        rc.modes(UP).uncertainty({"g": 1.0})

@@ -2,6 +2,7 @@
 """Speeds in rad/s, rpm, Hz and as periods: in questions, ranges, scenes, studies, tables, pictures and on the command line."""
 
 import itertools
+import json
 import math
 import re
 
@@ -179,9 +180,14 @@ def test_a_study_stores_what_it_is_asked_to_find():
         assert found[way].to_numpy() == pytest.approx(wanted, rel=1e-14)
     both = rc.sweep(study(grid, find=["period", "rpm"]))
     assert set(both.data_vars) == {"period", "rpm", "status"}
-    assert set(rc.sweep(study(grid, find=["modes", "period"])).data_vars) == set(plain.data_vars)
+    every = rc.sweep(study(grid, find=["modes", "period"]))
+    assert set(every.data_vars) == {*plain.data_vars, "period"}
+    assert every["period"].to_numpy() == pytest.approx(2 * np.pi / plain["angular_speed"].to_numpy(), rel=1e-14)
     rig = rc.sweep(study(grid, find=["period"], scene={"support": {"stiffness": "200 kN/m"}}))
-    assert set(rig.data_vars) == {"forward_period", "status"}
+    assert set(rig.data_vars) == {"period", "status"}
+    wheels = [{**link, "flywheel": {"mass": 5.0, "radius_of_gyration": 0.5, "spin": 30.0}} for link in LINKS]
+    turning = rc.sweep(study(grid, find=["period"], scene={"links": wheels}))
+    assert set(turning.data_vars) == {"forward_period", "backward_period", "status"}
 
 
 def test_a_study_draws_and_varies_periods():
@@ -285,3 +291,57 @@ def test_pictures_take_every_unit():
     dots = [line for line in periods.lines if line.get_marker() == "o"]
     assert dots[0].get_xdata()[0] == pytest.approx(2 * np.pi / one.angular_speed)
     assert dots[0].get_ydata()[0] == pytest.approx(2 * np.pi / one.angular_speed / one.order)
+
+
+def test_the_summary_of_a_study_in_periods(tmp_path, run):
+    """The lowest period belongs to the highest speed; the histogram has its proved ends as dotted lines."""
+    data = {"scene": {"speed": "s", "links": [{"mass": 2500, "length": 6}, {"mass": 400, "length": 24}]}, "scatter": {"worst": True},
+            "vary": {"links[0].mass": {"uniform": [2400, 2600]}}, "samples": 20}  # fmt: skip
+    path = tmp_path / "study.json"
+    path.write_text(json.dumps(data), encoding="utf-8")
+    code, out, _ = run("sweep", path, "--out", tmp_path / "a.csv")
+    low, high = (next(line for line in out.splitlines() if line.startswith(f"{end}_period_1 (s)")) for end in ("lowest", "highest"))
+    assert code == 0 and float(low.split()[-1]) <= float(high.split()[-1]) and out.index(low) < out.index(high)
+    assert "angular_speed" not in out and "\nperiod_1 (s)" in out
+    found = rc.sweep({**data, "find": ["period"]})
+    ax = plot_sweep(found)
+    dotted = [line for line in ax.lines if line.get_linestyle() == ":" and len(line.get_xdata())]
+    assert len(dotted) == 4 and "guaranteed worst case" in ax.get_legend_handles_labels()[1]
+    both = rc.sweep({**data, "find": ["modes", "period"]})
+    assert {"period", "lowest_period", "lowest_angular_speed", "conical_height"} <= set(both.data_vars)
+
+
+def test_a_grid_of_a_count_with_equal_ratios():
+    scene = {"links": [{"mass": 1.0, "length": 0.01, "repeat": 5}]}
+    grid = {"from": 5, "to": 640, "steps": 8, "log": True}
+    found = rc.Study.from_dict({"scene": scene, "vary": {"links[0].repeat": grid}})._plan("study").axes[0].values
+    assert found.tolist() == [5, 10, 20, 40, 80, 160, 320, 640]
+    with pytest.raises(rc.SceneError, match="makes numbers that are not whole, such as"):
+        rc.Study.from_dict({"scene": scene, "vary": {"links[0].repeat": {**grid, "steps": 7}}})
+
+
+@pytest.mark.parametrize(
+    ("support", "vary", "modes"),
+    [
+        ({"mass": 300}, {}, 2), ({"stiffness": 1e5}, {}, 2), ({"stiffness": 1e5, "mass": 300}, {}, 3), ({}, {}, 2),
+        ({"mass": 300}, {"support.stiffness": {"values": [1e4, 1e5]}}, 3),
+    ],
+)  # fmt: skip
+def test_a_study_has_the_modes_that_exist(support, vary, modes):
+    """A trolley that rolls freely adds no mode, nor a spring without mass to point masses; without flywheels nothing turns forward."""
+    links = [{"mass": 2500, "length": 6}, {"mass": 400, "length": 24}]
+    found = rc.sweep({"scene": {"links": links, "support": support}, "vary": {"links[0].mass": {"values": [2400, 2600]}, **vary}})
+    assert found["angular_speed"].sizes["mode"] == modes and np.isfinite(found["angular_speed"].to_numpy()).all()
+    assert not any("forward" in name or "backward" in name for name in found.data_vars)
+
+
+def test_shapes_and_drag_at_two_speeds_are_refused():
+    links = [{"mass": 1.0, "length": 1.0, "air_drag": {"coefficient": 1.1, "diameter": "5 mm"}}]
+    scene = {"links": links, "support": {"radius": 0.5}, "ask": {"shapes": {"angular_speed": 2.0}, "drag": {"angular_speed": 2.0}}}
+    speeds = {"values": [1.0, 2.0]}
+    one, other = ({f"ask.{question}.angular_speed": speeds} for question in ("shapes", "drag"))
+    for vary, stays in ((one, "drag"), (other, "shapes")):
+        with pytest.raises(rc.SceneError, match=rf"leaves the speed of \[ask.{stays}\] as it is: write find"):
+            rc.Study.from_dict({"scene": scene, "vary": vary, "find": ["shapes", "drag"]})
+    assert rc.Study.from_dict({"scene": scene, "vary": one, "find": ["shapes"]}).points == 2
+    assert rc.Study.from_dict({"scene": scene, "vary": {**one, **other}, "find": ["shapes", "drag"]}).points == 4

@@ -9,6 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 
 import numpy as np
+import openpyxl
 import pytest
 from tier import by_tier
 
@@ -550,3 +551,12 @@ def test_what_is_asked_of_a_loaded_shape(npz, system):
             np.testing.assert_allclose(here, there, rtol=1e-14)
     elif isinstance(system, rc.Chain):
         assert shape.force_diagram() == same.force_diagram()
+
+
+@pytest.mark.parametrize("name", RESULTS)
+def test_every_kind_of_result_has_a_workbook(tmp_path, name):
+    result, path = RESULTS[name](), tmp_path / "result.xlsx"
+    result.to_excel(path)
+    book = openpyxl.load_workbook(path, read_only=True)
+    first = [row[:2] for row in book["system"].iter_rows(min_row=2, values_only=True)]
+    assert ("revchain", rc.__version__) in first and len(book.sheetnames) > 1

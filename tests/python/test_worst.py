@@ -310,7 +310,7 @@ def test_random_gravity_and_rigs_and_other_units():
     rig = {**SCATTER["scene"], "support": {"stiffness": "200 kN/m", "mass": 300}}
     vary = {"support.stiffness": {"uniform": ["100 kN/m", "300 kN/m"]}, "support.mass": {"uniform": [100, 500]}}
     found = rc.sweep(changed(scene=rig, vary=vary))
-    speed = found["forward_angular_speed"]
+    speed = found["angular_speed"]
     inside = (speed >= found["lowest_angular_speed"]) & (speed <= found["highest_angular_speed"])
     assert (inside | speed.isnull()).all() and inside.sel(mode=3).all()
 
@@ -343,3 +343,15 @@ def test_the_histogram_shows_the_extremes():
     ax = plot_sweep(rc.sweep(changed(vary=vary)))
     dotted = [line for line in ax.lines if line.get_linestyle() == ":" and len(line.get_xdata())]
     assert len(dotted) == 4 and "guaranteed worst case" in ax.get_legend_handles_labels()[1]
+
+
+def test_a_datum_without_effect():
+    """Nothing hangs on the lower pin of the lowest link, and a point mass alone swings as any other."""
+    bodies = rc.Chain(mass=[2.0, 1.0], length=1.0, centroid=0.4, radius_of_gyration=0.3)
+    for system, data in ((bodies, {"links[0].length": "5 %"}), (rc.Chain(mass=1.0, length=1.0), {"links[0].mass": "5 %"})):
+        worst = rc.modes(system).uncertainty(data, worst=True).worst
+        assert worst.status == "success" and not worst.gap.any() and "no effect: the data do not change any speed" in repr(worst)
+    worst = rc.modes(bodies).uncertainty(length=[0.05, 0.0], worst=True).worst
+    assert worst.status == "success" and not worst.gap.any()
+    some = rc.modes(bodies).uncertainty({"links[1].length": "1 %"}, worst=True).worst
+    assert "no effect" not in repr(some)

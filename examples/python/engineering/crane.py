@@ -51,7 +51,7 @@ for rope in np.arange(4.0, 29.0, 4.0):
 # Which length of rope gives the slower mode a speed of 0.8 rad/s? ``rc.tune`` varies the rope until
 # it does.
 
-met = rc.tune(hanging(10.0), mode=1, vary="links[hook block].length_in_proportion", angular_speed=SLEWING)
+met = rc.tune(hanging(10.0), mode=1, vary="links[hook block].length", angular_speed=SLEWING)
 print(f"slewing at {SLEWING} rad/s meets the slower one with {met.value:.3f} m of rope: avoid this length")
 
 lengths = np.linspace(2.0, 28.0, 105)

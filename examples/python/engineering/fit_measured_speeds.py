@@ -11,7 +11,7 @@ import numpy as np
 import revchain as rc
 
 MEASURED = {1: ("10.97 s", "0.03 s"), 2: ("1.608 s", "0.008 s"), 3: ("0.2421 s", "0.0008 s")}
-LOAD, ROPE = "links[load].mass", "links[hook block].length_in_proportion"
+LOAD, ROPE = "links[load].mass", "links[hook block].length"
 
 believed = rc.Chain(mass=[2500, 400], length=[6, 24], names=["load", "hook block"])
 crane = rc.Rig(believed, support=rc.Support(stiffness="200 kN/m", mass=300))

@@ -119,7 +119,15 @@ def _summary(found: Dataset) -> list[str]:
     lines: list[tuple[str, ...]] = [("column", "least", "median", "largest")]
     unit = found.attrs.get("speed_unit")
     speeds = [str(key) for key, array in found.variables.items() if array.attrs.get("units") == "rad/s"] if unit else []
-    for name, values in list(columns(in_speed_unit(found, unit)).items())[1:-1]:
+    table = in_speed_unit(found, unit)
+    if unit == "s":  # the lowest speed has the longest period
+        periods = {str(key): _as_period(str(key)) for key, array in found.data_vars.items() if "path" not in array.attrs}
+        order = [_opposite(name) if _opposite(name) in periods else name for name in map(str, found.data_vars)]
+        periods = {name: said for name, said in periods.items() if name in speeds and said != name}
+        if not {*periods.values()} & ({*map(str, found.variables)} - {*periods}):  # find = ["modes", "period"] has both
+            table = table[order].rename(periods)
+            speeds = [periods.get(name, name) for name in speeds]
+    for name, values in list(columns(table).items())[1:-1]:
         if re.sub(r"_\d+$", "", name) in speeds or name in speeds:
             name = f"{name} ({unit})"
         there: Any = values[np.isfinite(values)] if values.dtype.kind in "fi" else ()
@@ -129,6 +137,18 @@ def _summary(found: Dataset) -> list[str]:
     rows = ["  ".join([line[0].ljust(wide[0]), *map(str.rjust, line[1:], wide[1:])]) for line in lines]
     points = found["status"].size
     return [f"Study of {points:,} point{'s' * (points != 1)}", *rows]
+
+
+def _opposite(name: str) -> str:
+    """The name of the other end of an interval of speeds."""
+    end, _, rest = name.partition("_")
+    other = {"lowest": "highest", "highest": "lowest"}.get(end)
+    return f"{other}_{rest}" if other and rest in ("angular_speed", "reached") else name
+
+
+def _as_period(name: str) -> str:
+    """The name of a period, from that of its speed."""
+    return _opposite(name).replace("angular_speed", "period")
 
 
 def _complain(found: Dataset, study: Study) -> None:

@@ -86,8 +86,10 @@ def plot_sweep(found: Dataset, name: str | None = None, ax: Axes | None = None, 
     values = result.to_numpy().astype(float).reshape(*(found.sizes[key] for key in points), -1)[..., :MAX_CURVES]
     ax = axes_or_new(ax, WIDEST, 4.8)
     if not grids:
-        ends = ("lowest_angular_speed", "highest_angular_speed") if name.endswith("angular_speed") else ()
-        return _histograms(values, result, ax, [found[end].to_numpy() for end in ends if end in found])
+        speed = name.removeprefix("forward_")  # the proved ends of a speed, or of a period, are named after it
+        ends = [f"lowest_{speed}", f"highest_{speed}"]
+        proved = [found[end].to_numpy() for end in ends if {*ends} <= {*found.data_vars}]
+        return _histograms(values, result, ax, proved)
     ax.set_xlabel(_label(grids[0]))
     if _is_log(grids[0]):
         ax.set_xscale("log")

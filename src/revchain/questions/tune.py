@@ -54,7 +54,8 @@ def tune(
         - ``"mass"`` (``"weight"``): mass of the whole chain in a rig or a held system, or of a cord without its tip.
         - ``"links[k].NAME"``: datum of a link of a chain (also in a rig or a held system); k is the name of the link
           (``"links[hook block].length"``) or its index, from 0 for the first one listed (see `Chain.order`). NAME is
-          ``mass`` (``weight``), ``length`` (with centre of gravity and radius of gyration constant),
+          ``mass`` (``weight``), ``length`` (of a point mass at its lower pin and of a uniform rod
+          with centre of gravity and radius of gyration in proportion, as in a scene; of another body these are constant),
           ``length_in_proportion`` (they grow with it, as for a point mass on a thread), ``centroid`` or
           ``radius_of_gyration``.
         - for a rig also ``"support.stiffness"``, ``"support.mass"``, ``"flywheels[k].momentum"``, and the data given for

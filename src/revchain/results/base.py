@@ -235,7 +235,8 @@ class Result(Unchangeable):
 
         def named(axis: str, number: int) -> str:
             if axis == "pin":
-                return system._pin_name(int(np.atleast_1d(getattr(self, "pins", np.arange(number + 1)))[number]))
+                pins = np.atleast_1d(getattr(self, "pins", np.arange(number + 1)))
+                return system._pin_name(int(pins[number])) if number < pins.size else ""
             return system._link_name(number) if axis == "link" else str(number + 1) if axis == "motion" else ""
 
         numbers = {"system": type(system).__name__, **system._data()}  # as `to_dict`

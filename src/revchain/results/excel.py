@@ -54,9 +54,11 @@ def pages_of(results: Mapping[str, Result], title: str = "") -> list[Page]:
 
     first = next(iter(results.values()))
     system: Any = getattr(first, "system", getattr(first, "governor", first))
-    facts, links = parts_of(system)
+    has_system = hasattr(system, "describe")  # standard deviations and other results of results have none
+    facts, links = parts_of(system) if has_system else ([], [])
     rows: list[tuple[str, Any, str]] = [("title", title, "")] * bool(title)
-    rows += [("description", system.describe(), ""), ("revchain", __version__, ""), *facts]
+    rows += [("description", system.describe(), "")] if has_system else []
+    rows += [("revchain", __version__, ""), *facts]
     pages = [Page("links" if len(links) > 2 else "point masses", links)] * bool(links)
     for name, result in results.items():
         sheet = result._full()

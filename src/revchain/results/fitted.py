@@ -145,6 +145,11 @@ class Fitted(Result, row="datum", title="Fitted: {summary}", notes=("{_lines}",)
                 more = "" if self._all_are_measured or "gravity" in group else ", or measure more"
                 lines.append(f"the speeds measured cannot tell {both} apart: leave one of them out{more}")
         free = self.degrees_of_freedom
+        if not free and not self.undetermined and np.isnan(self.standard_uncertainty).any():
+            lines.append(
+                "no standard uncertainties: there are as many data as speeds, and the measurements have no uncertainties; "
+                "give them, or measure more"
+            )
         if self.chi_square is not None and free and self.chi_square > free + 5 * (2 * free) ** 0.5:  # five standard deviations
             why = "a measurement is wrong, the uncertainties are too small, or other data differ from the system"
             lines.append(f"chi-square is far above its degrees of freedom: {why}")

@@ -213,7 +213,7 @@ class Uncertainty(Result, row="mode", title="Standard deviations"):
     )
     largest: Field[tuple[str, ...]] = Field(
         "For each mode the path of the datum that contributes most, such as ``'links[load].mass'``; empty if the mode is "
-        "exact. `tune` and `fit` accept these paths.",
+        "exact. `tune` and `fit` accept these paths; there the length of a point mass or rod moves its centre of gravity.",
     )
     _largest_part: Field[list[str]] = Field(
         "`largest`, or that there is nothing.",

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 BOXES = 33  # into which the box of tolerances is divided at most, for each bound
 MOST_LINKS = 100
+SLIGHT = 1e-9  # of a speed: a proved range that is only rounding
 CLOSE = 0.05  # of the range of a speed: the gap of a result that is a success
 _PARTS = 128  # of the interval of the ratio of a cord's tip to its mass
 _OF_SUPPORT = {"stiffness": -2, "support_mass": -1}  # places in the data of a `Family`
@@ -99,7 +100,11 @@ class WorstCase(Result, row="mode", title="{_words}", notes=("{_remarks}",)):
 
     @property
     def _remarks(self) -> str:
+        slight = self.highest_angular_speed - self.lowest_angular_speed <= SLIGHT * self.highest_angular_speed
+        without = [f"mode {number}" for number in self.number[slight].tolist()]
+        which = "any speed" if slight.all() else "the speed of " + ", ".join(without)
         return "\n".join([
+            *([f"no effect: the data do not change {which} within their tolerances"] if without else []),
             "no system in the box is outside of the bounds; reached: by a system in the box",
             "gap: part of the proved range that was not reached",
         ])  # fmt: skip
@@ -114,7 +119,7 @@ def _gap(worst: WorstCase) -> Floats:
         wide = worst.highest_angular_speed - worst.lowest_angular_speed
         inner = worst.highest_reached - worst.lowest_reached
         gap = np.where(np.isfinite(wide), 1 - inner / wide, 1.0)
-    nothing = np.isfinite(wide) & (wide <= 1e-9 * worst.highest_angular_speed)
+    nothing = np.isfinite(wide) & (wide <= SLIGHT * worst.highest_angular_speed)
     return np.where(nothing, 0.0, np.maximum(gap, 0.0))
 
 
@@ -207,6 +212,11 @@ def worst_of_modes(
     if system._is_cord:
         by_name = {each.name: np.array(each.width) for each in moved.values()}
         return _worst_of_cord(caller, modes, widths | by_name, data)
+    widths = {name: _without_lowest_pin(width, system) if name == "length" else width for name, width in widths.items()}
+    moved = {
+        path: each._replace(width=0.0) if each.name == "length" and not np.any(np.asarray(each.factor)[1:]) else each
+        for path, each in moved.items()
+    }
     family, names = _family(system, modes.gravity, widths, data, moved)
 
     def data_at(end: Extreme) -> dict[str, Any]:
@@ -214,6 +224,11 @@ def worst_of_modes(
 
     found = extremes(family, modes.number)
     return worst_of(found, modes.number, (modes.gravity, modes.gravity), data_at)
+
+
+def _without_lowest_pin(width: Floats, system: Any) -> Floats:
+    """The half-widths of the distances of pins, 0 for the lowest link: nothing hangs on its lower pin."""
+    return np.where(np.arange(system.size) == 0, 0.0, width)
 
 
 def _refuse_wide(caller: str, name: str, data: Any, width: Any, of: str = "") -> None:

@@ -332,6 +332,7 @@ INSTEAD = {
     "gaussian": "write normal",
     "density": "give the mass",
     "diameter": "give radius_of_gyration",
+    "length_in_proportion": "write length: centroid and radius of gyration follow unless they are given",
 }
 
 

@@ -149,6 +149,8 @@ def axis_of(key: str, table: Vary, kind: type, names: Sequence[str], numbers: Nu
     else:
         values = _listed(table.values, parts, quantity_of(path), numbers)
     if is_whole and values is not None and np.isfinite(values).all():
+        whole = np.round(values)
+        values = np.where(np.abs(values - whole) <= 1e-9 * np.maximum(np.abs(values), 1), whole, values)
         for k in np.flatnonzero(values != np.round(values))[:1].tolist():
             such = "makes numbers that are not whole, such as" if is_grid else "must be a whole number, got"
             numbers.refuse("steps" if is_grid else f"values[{k}]", f"{such} {values[k]:g}")

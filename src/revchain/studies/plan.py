@@ -36,7 +36,7 @@ class Output(NamedTuple):
     unit: str = ""
     kind: str = "f8"  # "f8", "i8" or "?"; NaN, 0 or False stands for a missing result
     along: str = ""  # "mode", "shape", "speed", "order" ..., or empty for one number
-    only: str = ""  # "rig", "spinning" (a rig with momentum), "other" (not a rig), "stops" or "turning"; empty for all
+    only: str = ""  # "rig", "spinning" (a rig with momentum), "still" (without), "still rig", "stops" or "turning"; or all
 
 
 def _turning(name: str, sign: int, modes: Any) -> Any:
@@ -65,7 +65,7 @@ def _signed(numbers: Any) -> Any:
 
 
 _OF_MODES = {"angular_speed": "rad/s", "conical_height": "m", "error_bound": "", "speed_error_bound": ""}
-_TURNS = (("forward", 1, "rig"), ("backward", -1, "spinning"))
+_TURNS = (("forward", 1, "spinning"), ("backward", -1, "spinning"))
 _ANSWERS = {
     "modes": Scene.modes, "shapes": Scene.steady_shapes, "response": Scene.response, "campbell": Scene.campbell,
     "drag": Scene.drag_shape, "equilibria": Scene.equilibria,
@@ -75,7 +75,8 @@ WAYS = {"angular_speed": "rad/s", "rpm": "rpm", "frequency": "Hz", "period": "s"
 _OF_STOPS = {"lowest_speed": "rad/s", "highest_speed": "rad/s", "lift": "m", "sensitiveness": "", "insensitiveness": ""}
 _OF_EQUILIBRIA = {"inclination": "rad", "lift": "m", "ball_radius": "m", "period": "s"}
 OUTPUTS = {
-    **{name: Output("modes", attrgetter(name), _OF_MODES[name], "f8", "mode", "other") for name in list(_OF_MODES)[:3]},
+    **{name: Output("modes", attrgetter(name), _OF_MODES[name], "f8", "mode", "still") for name in list(_OF_MODES)[:3]},
+    "speed_error_bound": Output("modes", attrgetter("speed_error_bound"), "", "f8", "mode", "still rig"),
     **{
         f"{turn}_{name}": Output("modes", partial(_turning, name, sign), unit, "f8", "mode", only)
         for turn, sign, only in _TURNS
@@ -125,8 +126,9 @@ class Plan:
     seed: int
     find: tuple[str, ...]  # of `STUDIED`
     outputs: Labels
-    ways: tuple[str, ...]  # of `WAYS`, if only the speeds of modes are wanted
+    ways: tuple[str, ...]  # of `WAYS`, if speeds of modes are wanted in other units, or nothing else of modes
     links: Links | None  # how links follow the varied numbers, if heights come from `revchain.conical_heights`
+    all_of_modes: bool  # whether all outputs of modes are stored, or only the speeds in `ways`
 
     @property
     def points(self) -> int:
@@ -231,17 +233,22 @@ def asked_of(scene: Scene, wanted: Sequence[str] | UnsetType, numbers: Numbers) 
     return tuple(asked)
 
 
-def outputs_of(scene: Scene, largest: Scene, find: tuple[str, ...], max_shapes: int, bounds: bool) -> Labels:
-    """The outputs of a study; `largest` is the scene of the point with the most modes."""
+def outputs_of(
+    scene: Scene, largest: Scene, find: tuple[str, ...], max_shapes: int, bounds: bool, varied: bool
+) -> Labels:
+    """The outputs of a study; `largest` is the scene of the point with the most modes.
+
+    `varied` says that a varied number may give the top pin inertia, a spring, or neither.
+    """
     spins = getattr(scene.system(), "has_momentum", False)
-    kinds = ["", "rig", *["spinning"] * spins] if scene.is_rigged else ["", "other"]
+    kinds = ["", *["rig"] * scene.is_rigged, *(["spinning"] if spins else ["still", *["still rig"] * scene.is_rigged])]
     if not isinstance(scene.governor, UnsetType):
         stops = scene.governor.lowest_inclination is not UNSET
         kinds = ["", *["stops"] * stops, *["turning"] * _turns(scene)]
     several = tuple(range(1, max_shapes + 1))
     labels: dict[str, tuple[int, ...]] = {"": (), "shape": several, "equilibrium": several}
     if "modes" in find:
-        labels["mode"] = _modes_of(scene, largest)
+        labels["mode"] = _modes_of(scene, largest, varied)
     if not isinstance(ask := scene.ask.campbell, UnsetType) and "campbell" in find:
         labels["order"] = (1, 2) if isinstance(ask.orders, UnsetType) else tuple(dict.fromkeys(ask.orders))
     for name, dimension in (("response", "speed"), ("campbell", "campbell_speed")):
@@ -257,12 +264,10 @@ def outputs_of(scene: Scene, largest: Scene, find: tuple[str, ...], max_shapes: 
 
 def said(plan: Plan, name: str) -> dict[str, tuple[str, Callable[[Any], Any]]]:
     """The variables in which a study stores an output: by name the unit, and a function of the numbers."""
-    if not plan.ways or OUTPUTS[name].question != "modes":
-        return {name: (OUTPUTS[name].unit, np.asarray)}
-    if not name.endswith("angular_speed"):
-        return {}
     found: dict[str, tuple[str, Callable[[Any], Any]]] = {}
-    for way in plan.ways:
+    if plan.all_of_modes or OUTPUTS[name].question != "modes":
+        found[name] = OUTPUTS[name].unit, np.asarray
+    for way in plan.ways if OUTPUTS[name].question == "modes" and name.endswith("angular_speed") else ():
         found[name.replace("angular_speed", way)] = WAYS[way], partial(in_unit, unit=WAYS[way])
     return found
 
@@ -272,14 +277,14 @@ def columns_of(name: str, labels: tuple[int, ...]) -> list[str]:
     return [f"{name}_{label}" for label in labels] or [name]
 
 
-def _modes_of(scene: Scene, largest: Scene) -> tuple[int, ...]:
+def _modes_of(scene: Scene, largest: Scene, varied: bool) -> tuple[int, ...]:
     """Numbers of the modes with columns: those asked for, at most those of the point with the most modes."""
     ask = scene.ask.modes
     system: Any = largest.system()
     ask = AskModes() if isinstance(ask, UnsetType) else ask
     first = 1 if isinstance(ask.first, UnsetType) else ask.first
     if system._kind == "rig":
-        there = 2 * (system.size + 1)  # in each direction
+        there = 2 * (system.size + 1) if system.has_momentum else system.size + (varied or _top_moves(system))
     else:
         there = system.size if system._kind == "chain" else system.mode_count or DEFAULT_MODES
     there = max(there - first + 1, 1)
@@ -288,6 +293,13 @@ def _modes_of(scene: Scene, largest: Scene) -> tuple[int, ...]:
     else:
         count = there if ask.count == "all" else min(DEFAULT_MODES, there)
     return tuple(range(first, first + count))
+
+
+def _top_moves(rig: Any) -> bool:
+    """Whether the top pin adds a mode: it is on a spring, and has inertia. A trolley that rolls freely has no such mode."""
+    top = rig.chain
+    is_plummet = top.centroid[-1] == top.length[-1] and top.radius_of_gyration[-1] == 0 and rig.displaced is None
+    return bool(0 < rig.support.stiffness < math.inf and (rig.support.carriage or not is_plummet))
 
 
 def _turns(scene: Scene) -> bool:

@@ -107,9 +107,7 @@ def worst_cases(plan: Plan, values: Values) -> dict[str, tuple[list[str], Floats
         for speed in SPEEDS:
             table[speed][row, : len(modes)] = getattr(found, speed)[: len(labels)]
     stored = {speed: ([*grids, "mode"], each.reshape(shape), {"units": "rad/s"}) for speed, each in table.items()}
-    if not plan.ways:
-        return stored
-    said = {}
+    said = dict(stored) if plan.all_of_modes else {}
     for way, unit in WAYS.items():
         for end, speed in zip(("lowest", "highest"), (SPEEDS[0], SPEEDS[-1])[:: -1 if unit == "s" else 1], strict=True):
             if way in plan.ways:

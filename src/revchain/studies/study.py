@@ -55,7 +55,8 @@ class Study(Table, frozen=True):
         Seed of the random numbers.
     find : list of {"modes", "shapes", "response", "campbell", "drag", "equilibria"}, optional
         Questions to answer. ``"angular_speed"``, ``"rpm"``, ``"frequency"`` and ``"period"`` store the speeds of modes in
-        these units, and nothing else of modes. If left out, those for which the scene has a table; if it has none, its modes, or the
+        these units; with ``"modes"`` beside it also all else of modes. If left out,
+        those for which the scene has a table; if it has none, its modes, or the
         equilibria of a governor.
     max_shapes : int
         Largest number of stored steady shapes, or equilibria of a governor, of each point.
@@ -251,20 +252,23 @@ class Study(Table, frozen=True):
         assert isinstance(scene, Scene)
         find_given = () if isinstance(self.find, UnsetType) else self.find
         batched = find == ("modes",) and self.error_bounds is not True
+        _refuse_two_speeds(axes, find, numbers)
         samples = 1 if isinstance(self.samples, UnsetType) else self.samples
         grids = [axis.values.size for axis in axes if axis.values is not None]
         shape = (*grids, samples) if random else tuple(grids)
         links = links_of(scene, axes) if batched else None
         bounds = links is None if isinstance(self.error_bounds, UnsetType) else self.error_bounds
-        outputs = outputs_of(scene, _largest(base, axes, source), find, self.max_shapes, bounds)
+        of_top = ("centroid", "radius_of_gyration", "kind")
+        varied = any(axis.path[0] == "support" or axis.path[-1] in of_top for axis in axes)
+        outputs = outputs_of(scene, _largest(base, axes, source), find, self.max_shapes, bounds, varied)
         columns = {"point", "status", "sample", *(output.along for output in OUTPUTS.values()), *outputs}
-        ways = tuple(dict.fromkeys(name for name in WAYS if name in find_given)) if "modes" not in find_given else ()
+        ways = tuple(name for name in WAYS if name in find_given)
         columns.update(*(columns_of(*output) for output in outputs.items()), ways)
         columns.update(SPEEDS * self.scatter.worst)
         for axis in axes:
             if axis.name in columns:
                 numbers.of(joined("vary", axis.key)).refuse("name", f"{axis.name} is the name of a result")
-        plan = Plan(base, axes, shape, self.seed, find, outputs, ways, links)
+        plan = Plan(base, axes, shape, self.seed, find, outputs, ways, links, not ways or "modes" in find_given)
         if self.scatter.worst and not numbers.problems and (reason := why_no_worst(plan)):
             numbers.refuse("scatter.worst", reason)
         if plan.points > MAX_POINTS:
@@ -322,6 +326,18 @@ def _refuse_twice(axes: tuple[Axis, ...], numbers: Numbers) -> None:
             shorter = min(axis.path, other.path, key=len)
             if axis.path[: len(shorter)] == other.path[: len(shorter)]:
                 caller.refuse("", f"is varied by {joined('vary', other.key)}, too")
+
+
+def _refuse_two_speeds(axes: tuple[Axis, ...], find: tuple[str, ...], numbers: Numbers) -> None:
+    """Note an error if the speed of [ask.shapes] or [ask.drag] is varied while the other, which is found too, is constant."""
+    names = ("angular_speed", "conical_height")
+    speeds = {str(axis.path[1]): axis for axis in axes if axis.path[0] == "ask" and axis.path[-1] in names}
+    varied = [question for question in ("shapes", "drag") if question in speeds]
+    if len(varied) == 1 and {"shapes", "drag"} <= set(find):
+        other = "drag" if varied[0] == "shapes" else "shapes"
+        one = varied[0]
+        why = f'leaves the speed of [ask.{other}] as it is: write find = ["{one}"], and a study of its own for "{other}"'
+        numbers.of(joined("vary", speeds[varied[0]].key)).refuse("", why)
 
 
 def _check(base: dict[str, Any], axis: Axis, numbers: Numbers) -> None:

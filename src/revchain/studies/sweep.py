@@ -109,7 +109,7 @@ def sweep(
     ...     "scene": {"links": [{"mass": 1.0, "length": 0.5, "kind": "rod"}], "support": {"stiffness": 50.0}},
     ...     "vary": {"support.stiffness": {"from": "10 N/m", "to": "1 kN/m", "steps": 3, "log": True}},
     ... })
-    >>> found["forward_angular_speed"].sel(mode=1).to_numpy().round(4)
+    >>> found["angular_speed"].sel(mode=1).to_numpy().round(4)
     array([2.8026, 4.8815, 5.3647])
     """
     if isinstance(study, dict):

@@ -100,6 +100,9 @@ def datum_at(caller: str, system: Any, path: Any, gravity: float, argument: str 
                 f"{caller}: support.radius has no effect on the speeds of small oscillations, only on response and "
                 f"steady_shapes; vary another datum, got {shown(said)}"
             )
+        if isinstance(said, str) and re.match(r"(link|flywheel|pin)\[", said):
+            raise ValueError(f'{caller}: {argument}: did you mean "{said.replace("[", "s[", 1)}"? got {shown(said)}')
+        known += ["gravity"] * (argument == "vary")
         listed = ", ".join(f'"{one}"' for one in known)
         names = ", ".join(dict.fromkeys(filter(None, system._listed_names[:_MOST_NAMES])))
         by_name = f" (k: an index or a name, {names})" if names else ""
@@ -187,6 +190,8 @@ def _of_chain(caller: str, chain: Chain, path: str, link: int | None, gravity: f
     assert link is not None
     name = path.rpartition(".")[2]
     own = float(chain.length[link])
+    if name == "length" and _is_of_length_alone(chain, link):
+        name, path = "length_in_proportion", f"{path}_in_proportion"
     rate = ("mass" if name == "weight" else name, (np.arange(chain.size) == link).astype(float))
 
     def change(x: float) -> Chain:
@@ -198,6 +203,14 @@ def _of_chain(caller: str, chain: Chain, path: str, link: int | None, gravity: f
     present = own if name == "length_in_proportion" else float(getattr(chain, name)[link])
     floor = None if name == "centroid" else 0.0
     return Datum(path, present, change, own, floor, own if name in ("centroid", "radius_of_gyration") else math.inf, rate)
+
+
+def _is_of_length_alone(chain: Chain, link: int) -> bool:
+    """Whether the length of a link decides its centroid and radius of gyration: a point mass at its lower pin, or a rod."""
+    long, centroid, radius = (float(column[link]) for column in (chain.length, chain.centroid, chain.radius_of_gyration))
+    near = 1e-12 * long
+    is_rod = abs(centroid - long / 2) <= near and abs(radius - long / math.sqrt(12)) <= near
+    return is_rod or (radius == 0 and abs(centroid - long) <= near)
 
 
 def _scaled(caller: str, chain: Chain, heavier: float, longer: float) -> Chain:
@@ -251,7 +264,7 @@ def _of_rig(caller: str, rig: Rig, path: str, link: int | None, gravity: float) 
         return Datum(path, float(column[link]), dragged, typical)
     if where == "" or where.startswith("links"):
         own = _of_chain(caller, chain, path, link, gravity)
-        follows = fluid is not None and name in _LENGTHS and path != f"{where}.length"  # the displaced fluid may change with it
+        follows = fluid is not None and name in _LENGTHS and own.path != f"{where}.length"  # the fluid may follow
         return replace(own, change=lambda x: made(chain=own.change(x)), rate=None if follows else own.rate)
     whole, long = chain._compiled.total_weight, chain.total_length
     if where == "support":

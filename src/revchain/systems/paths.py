@@ -37,6 +37,10 @@ def numbered(path: str, names: Sequence[str]) -> str:
     if there:
         listed = ", ".join(f"{found[1]}[{k}]" for k in there[:3]) + (" ..." if len(there) > 3 else "")
         raise ValueError(f'{found[0]}: {len(there)} links are named "{name}"; write an index: {listed}')
+    if re.fullmatch(r"-\d+", name):
+        raise ValueError(f"{found[0]}: indices start at 0, for the first link listed")
+    if name == "*":
+        raise ValueError(f"{found[0]}: there is no wildcard; write a path for each link")
     known = list(dict.fromkeys(one for one in names if one))
     if not known:
         raise ValueError(f"{found[0]}: no link has a name; write an index such as {found[1]}[0]")
