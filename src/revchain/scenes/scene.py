@@ -16,7 +16,7 @@ from ..results.files import naming, written_aside
 from ..systems.numbers import text
 from ..systems.units import speed_unit
 from . import parse
-from .answer import MOVES, SPEEDS, answered, arguments
+from .answer import MOVES, SPEEDS, answered, arguments, notes_on
 from .error import Problem, SceneError
 from .positions import positions_in
 from .system import Numbers, System, air_drag, problem_of, system_of
@@ -339,7 +339,8 @@ class Scene(Tables, frozen=True, weakref=True):
                 numbers = Numbers("scene", options=options)
                 given = self._arguments(question, table, system, numbers)
                 numbers.done()
-            return asked_in(unit, answered(question, system, given, gravity, progress))
+            notes = () if question == "explain" else notes_on(self, question, table, given, Numbers("scene", options=options))
+            return asked_in(unit, answered(question, system, given, gravity, progress), notes)
         except ValueError as error:
             if not isinstance(error, SceneError):
                 error = SceneError("scene", problems=[self._problem_of(error, question, self._table(question, changed))])

@@ -395,6 +395,13 @@ def _rig(chain: Chain | None, scene: Tables, numbers: Numbers) -> Rig | None:
         return None
 
 
+def has_air_drag(scene: Tables) -> bool:
+    """Whether a link of the scene has quadratic drag of air."""
+    whole = scene.uniform_chain if scene.tapered_chain is UNSET else scene.tapered_chain
+    rows = [link for _, link in scene._bodies()] if isinstance(whole, UnsetType) else [whole]
+    return any(row.air_drag is not UNSET for row in rows)
+
+
 def air_drag(scene: Tables, density: float | None, numbers: Numbers) -> Drag | None:
     """The drag of air on the links of a scene; None if there is none or it was refused, which is noted."""
     whole = scene.uniform_chain if scene.tapered_chain is UNSET else scene.tapered_chain
