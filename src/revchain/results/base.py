@@ -242,6 +242,9 @@ class Result(Unchangeable):
         numbers = {"system": type(system).__name__, **system._data()}  # as `to_dict`
         return replace(sheet, facts={"system": numbers, **sheet.facts}, named=named)
 
+    def __dir__(self) -> list[str]:
+        return [name for name in super().__dir__() if name != "plot" or hasattr(type(self), "plot")]
+
     def _state(self) -> dict[str, Any]:
         """All parts, and the other fields computed so far."""
         parts = {name: getattr(self, name) for name, field in self._fields.items() if field.part and hasattr(self, name)}

@@ -252,7 +252,7 @@ def notes_on(scene: Tables, question: str, table: Table, given: Given, numbers: 
     """Notes about what the answer to a question leaves out, and about plain numbers that were read in rad/s."""
     notes = []
     if question not in ("drag", "equilibria") and has_air_drag(scene):
-        notes.append("without air_drag, which acts in [ask.drag] only")
+        notes.append("the drag of air is left out here: air_drag acts in [ask.drag] only")
     if question == "swing" and is_driven_trolley(scene.support, given.get("support")):
         notes.append("the trolley moves as prescribed: its own mass and damping have no effect")
     unit = scene.speed
@@ -263,7 +263,7 @@ def notes_on(scene: Tables, question: str, table: Table, given: Given, numbers: 
             if is_speed and isinstance(value, float | int) and value:
                 shown = digits(in_unit(float(value), str(unit)), 4)
                 said, right = numbers.named(name, f"{value:g}"), numbers.named(name, f'"{value:g} {unit}"')
-                notes.append(f'{said} was read as {value:g} rad/s = {shown} {unit}: for {value:g} {unit} write {right}')
+                notes.append(f'the plain number {said} was read as {value:g} rad/s = {shown} {unit}: for {value:g} {unit} write {right}')
             elif is_speed and isinstance(value, list | tuple | Spread) and speed_unit(to_builtins(value)) is None:
                 notes.append(f'plain numbers of {name} were read in rad/s: write text such as "8 {unit}" for another unit')
     return tuple(notes)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The report of a scene: one HTML page with the system, all answers, their bounds and pictures, to hand to a colleague."""
+"""The report of a scene: one HTML file with the system, all answers, their bounds and pictures, to hand to a colleague."""
 
 from __future__ import annotations
 

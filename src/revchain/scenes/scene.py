@@ -280,7 +280,7 @@ class Scene(Tables, frozen=True, weakref=True):
     def report(self, path: str | os.PathLike[str]) -> None:
         """Answer all questions of the scene and write a report, to hand to a colleague.
 
-        The report is one HTML page that needs no other file and no network: the system in words and in a scale drawing, each
+        The report is one HTML file that needs no other file and no network: the system in words and in a scale drawing, each
         answer with its table, bounds and picture, what is proved, the text of the scene, and how to repeat it.
 
         Parameters
@@ -415,7 +415,10 @@ class Scene(Tables, frozen=True, weakref=True):
         table = parse.convert(data, TABLES[question], "scene", problems)
         if problems:
             where = f"ask.{question}."
-            raise SceneError("scene", problems=[each._replace(key=where + each.key) for each in problems])
+            raise SceneError("scene", problems=[
+                each._replace(key=where + each.key, reason=each.reason + parse.several(where + each.key, data.get(each.key)))
+                for each in problems
+            ])  # fmt: skip
         return table
 
     def _made(self) -> dict[str, Any]:

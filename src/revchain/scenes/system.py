@@ -21,7 +21,7 @@ from ..systems.rig import Displaced, Flywheel, Pin, Rig, Support
 from ..systems.units import SI, si_value, speed_unit
 from . import tables
 from .error import Problem, SceneError
-from .parse import without_consequences, written
+from .parse import several, without_consequences, written
 from .tables import MOST_LINKS, SYSTEMS, Link, Links, Spread, Table, Tables, number_fields
 
 MOST = 1e100  # largest number of a scene, in SI units: products of a few numbers stay within the range of double
@@ -95,7 +95,7 @@ class Numbers:
         try:
             number = si_value(given, quantity) if isinstance(given, str) else float(given)
         except ValueError as error:
-            self.refuse(key, str(error))
+            self.refuse(key, f"{error}{several(f'{self.table}.{key}', given)}")
             return math.nan
         if math.isnan(number) or (finite and math.isinf(number)):
             must = "be finite" if finite else "be a number"
@@ -132,7 +132,10 @@ class Numbers:
                 return 1 / np.linspace(1 / first, 1 / last, given.steps)
             return (np.geomspace if given.log else np.linspace)(first, last, given.steps)
         if isinstance(given, str) and (words := re.fullmatch(r"(\S.*?)\s+to\s+(.+)", given)):
-            range_ = f'a range is written {{from = "{words[1]}", to = "{words[2]}"}}'
+            last, _, steps = words[2].partition(" in ")
+            ends = [end if re.fullmatch(r"[+-]?[\d.]+", end) else f'"{end}"' for end in (words[1], last.strip())]
+            count = f", steps = {steps.strip()}" if steps.strip().isdigit() else ""
+            range_ = f"a range is written {{from = {ends[0]}, to = {ends[1]}{count}}}"
             self.refuse(key, f'{range_ if ranges else "must be one number, not a range"}, got "{given}"')
             return math.nan
         return self.value(key, given, key, sign)
