@@ -464,7 +464,7 @@ def _system(scene: Scene, system: Any) -> str:
         for fact in facts
     )
     table = f'<div class="wide"><table class="facts"><tbody>{rows}</tbody></table></div>' if rows else ""
-    table += _links(links, "upper end" if getattr(system, "_is_held", False) else "support", scene.order)
+    below = _links(links, "upper end" if getattr(system, "_is_held", False) else "support", scene.order)
     picture = _picture(lambda: plot_to_scale(system), f"The system at rest, drawn to scale: {system.describe()}", "drawing")
     scale = "At rest, to scale. Symbols of bodies are not to scale."
     if isinstance(system, SleeveGovernor):
@@ -474,8 +474,8 @@ def _system(scene: Scene, system: Any) -> str:
     return f"""<section id="system">
 <h2>The system</h2>
 <div class="beside"><figure>{picture}<figcaption>{scale}</figcaption></figure>
-<div><ul class="parts">{listed}</ul></div></div>
-{table}
+<div><ul class="parts">{listed}</ul>{table}</div></div>
+{below}
 </section>"""
 
 

@@ -132,10 +132,10 @@ class Numbers:
                 return 1 / np.linspace(1 / first, 1 / last, given.steps)
             return (np.geomspace if given.log else np.linspace)(first, last, given.steps)
         if isinstance(given, str) and (words := re.fullmatch(r"(\S.*?)\s+to\s+(.+)", given)):
-            last, _, steps = words[2].partition(" in ")
-            ends = [end if re.fullmatch(r"[+-]?[\d.]+", end) else f'"{end}"' for end in (words[1], last.strip())]
+            to, _, steps = words[2].partition(" in ")
+            said = [end if re.fullmatch(r"[+-]?[\d.]+", end) else f'"{end}"' for end in (words[1], to.strip())]
             count = f", steps = {steps.strip()}" if steps.strip().isdigit() else ""
-            range_ = f"a range is written {{from = {ends[0]}, to = {ends[1]}{count}}}"
+            range_ = f"a range is written {{from = {said[0]}, to = {said[1]}{count}}}"
             self.refuse(key, f'{range_ if ranges else "must be one number, not a range"}, got "{given}"')
             return math.nan
         return self.value(key, given, key, sign)
