@@ -181,7 +181,13 @@ def _sensitivity(shape: SteadyShape) -> Sensitivity:
     return held_shape_sensitivity(shape) if hasattr(shape, "lower_pull") else shape_sensitivity(shape)
 
 
-class SteadyShape(Result, Moving, row="link", title="Steady shape of {_waves}{_at_speed}", notes=("{_order}", "{_in_compression}")):
+class SteadyShape(
+    Result,
+    Moving,
+    row="link",
+    title="Steady shape of {_waves}{_at_speed}",
+    notes=("{_order}", "{_in_compression}"),
+):
     """One steady shape (relative equilibrium) of a system at one speed.
 
     `steady_shapes`, `steady_shape` and the branches return it. Arrays start at the free end, of a held system at the
@@ -270,7 +276,8 @@ class SteadyShape(Result, Moving, row="link", title="Steady shape of {_waves}{_a
     )
     tension: Field[Floats] = Field(
         "Magnitude of the reaction at the upper pin of each link, shape (N,), N or in the unit of the weights; a push is "
-        "positive, too, and printed tables name the links in compression; for a held chain at each pin, shape (N + 1,); for a cord at each place.",
+        "positive, too, and printed tables name the links in compression; for a held "
+        "chain at each pin, shape (N + 1,); for a cord at each place.",
         forced("tension"),
         part=True,
     )

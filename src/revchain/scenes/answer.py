@@ -263,7 +263,8 @@ def notes_on(scene: Tables, question: str, table: Table, given: Given, numbers: 
             if is_speed and isinstance(value, float | int) and value:
                 shown = digits(in_unit(float(value), str(unit)), 4)
                 said, right = numbers.named(name, f"{value:g}"), numbers.named(name, f'"{value:g} {unit}"')
-                notes.append(f'the plain number {said} was read as {value:g} rad/s = {shown} {unit}: for {value:g} {unit} write {right}')
+                read = f"the plain number {said} was read as {value:g} rad/s = {shown} {unit}"
+                notes.append(f"{read}: for {value:g} {unit} write {right}")
             elif is_speed and isinstance(value, list | tuple | Spread) and speed_unit(to_builtins(value)) is None:
                 notes.append(f'plain numbers of {name} were read in rad/s: write text such as "8 {unit}" for another unit')
     return tuple(notes)

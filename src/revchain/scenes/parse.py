@@ -417,7 +417,8 @@ _EXAMPLES = {"time": '["0 s", "2 s"]', "velocity": '["0 m/s", "1 m/s"]', "offset
 def several(key: str, value: Any) -> str:
     """The end of a message about several speeds where one is wanted: how a study answers for each; else empty."""
     parts = re.split(r"\s*[;,]\s*", value) if isinstance(value, str) else value
-    if key not in ("ask.shapes.angular_speed", "ask.drag.angular_speed", "ask.equilibria.angular_speed") or not isinstance(parts, list) or len(parts) < 2:
+    one = ("ask.shapes.angular_speed", "ask.drag.angular_speed", "ask.equilibria.angular_speed")
+    if key not in one or not isinstance(parts, list) or len(parts) < 2:
         return ""
     if isinstance(value, str) and not all(re.fullmatch(r"[+-]?[\d.]+\s*[A-Za-z/]*", part) for part in parts):
         return ""

@@ -133,7 +133,7 @@ class Numbers:
             return (np.geomspace if given.log else np.linspace)(first, last, given.steps)
         if isinstance(given, str) and (words := re.fullmatch(r"(\S.*?)\s+to\s+(.+)", given)):
             to, _, steps = words[2].partition(" in ")
-            said = [end if re.fullmatch(r"[+-]?[\d.]+", end) else f'"{end}"' for end in (words[1], to.strip())]
+            said = [end if re.fullmatch(r"[+-]?[\d.]+", end) else f'"{end}"' for end in (_with_unit_of(words[1], to), to.strip())]
             count = f", steps = {steps.strip()}" if steps.strip().isdigit() else ""
             range_ = f"a range is written {{from = {said[0]}, to = {said[1]}{count}}}"
             self.refuse(key, f'{range_ if ranges else "must be one number, not a range"}, got "{given}"')
@@ -174,6 +174,12 @@ class Numbers:
             self.refuse("", "mass (kg) or weight (N) is missing")
         if heavy or not optional:
             found[prefix + self.heavy] = heavy
+
+
+def _with_unit_of(number: str, other: str) -> str:
+    """A plain number with the unit of another text, such as the 1 of "1 to 60 rpm"; any other text unchanged."""
+    unit = re.sub(r"^[+-]?[\d.]+", "", other.strip()).strip()
+    return f"{number} {unit}".strip() if re.fullmatch(r"[+-]?[\d.]+", number) else number
 
 
 def _are_periods(key: str, given: Sequence[Any]) -> bool:
