@@ -153,7 +153,7 @@ def test_hostile_texts(tmp_path, run):
     assert "Crane & <script>alert(1)</script> $x$" in page.text and 'A "quoted" <b>text</b>' in page.text
     assert 'revchain run "a scene.toml" --report "a scene.html" --gravity "1.62 m/s^2"' in page.text
     assert "gravity 1.62 m/s²" in page.text and "40 of 100 rows, evenly spaced" in page.text
-    speeds = [row[0] for table in page.tables for row in table if len(row) == 8]  # in rad/s, as asked, without rpm
+    speeds = [row[0] for table in page.tables for row in table if len(row) == 8]
     assert speeds.count("5.0000") == 2  # in the printed table, and in that of all rows
     assert date.today().isoformat() in page.text
 

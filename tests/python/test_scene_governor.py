@@ -58,7 +58,7 @@ def test_a_chain_has_no_equilibria():
 
 def test_equilibria_on_the_command_line(run):
     code, out, err = run("equilibria", PORTER, "--angular-speed", "128 rpm", "--json", "e.json", "--csv", "e.csv", "--plot", "e.svg")
-    assert (code, err) == (0, "") and "2 equilibria at 13.4041 rad/s (128.00 rpm), proved complete" in out
+    assert (code, err) == (0, "") and "2 equilibria at 128.000 rpm (13.4041 rad/s), proved complete" in out
     assert "SleeveGovernor: lift 0.05752 m" in out and "governor: 2 balls of 2.3 kg on arms of 0.33 m" in out
     written, found = json.loads(Path("e.json").read_text()), rc.load_scene(PORTER).equilibria(angular_speed="128 rpm")
     assert [point["inclination"] for point in written["points"]] == found.inclination.tolist()

@@ -255,7 +255,7 @@ def test_the_command_line(run, tmp_path):
     code, out, _ = run("modes", file, "--angular-speed", "1 s to 20 s")
     assert code == 0 and "2 of 2 modes" in out
     code, out, _ = run("shapes", file, "--angular-speed", "60 1/min")
-    assert code == 0 and "6.28319 rad/s (60.00 rpm)" in out
+    assert code == 0 and "60.0000 rpm (6.28319 rad/s)" in out
     code, out, _ = run("modes", file, "--speed", "Hz", "--csv", tmp_path / "a.csv")
     assert code == 0 and "frequency" in out and "rad/s" not in out
     assert (tmp_path / "a.csv").read_text().startswith("mode,direction,angular_speed,frequency,rpm,period")

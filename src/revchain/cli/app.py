@@ -6,6 +6,7 @@ from __future__ import annotations
 import io
 import json
 import os
+import re
 import sys
 from importlib.resources import files
 from pathlib import Path
@@ -53,6 +54,8 @@ def run(arguments: list[str] | None = None) -> int:
 
 def _instead(error: Any) -> str:
     """What to write instead of an option that does not exist: a speed, or a number of the scene."""
+    if re.match(r"No such command '(fit|tune)'", error.format_message()):
+        return "; fits and tuning are done in Python, by revchain.fit and revchain.tune"
     wrong = getattr(error, "option_name", "").lstrip("-").replace("-", "_")
     there = [] if error.ctx is None else [name for each in error.ctx.command.params for name in each.opts]
     if wrong in ("rpm", "hz", "speed", "frequency", "period"):

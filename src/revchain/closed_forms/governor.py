@@ -124,7 +124,7 @@ class GovernorEquilibria(Result, Listed[GovernorPoints], row="point", title="{su
         count, speed = self.inclination.size, self.angular_speed
         what = f"{count} equilibri{'um' if count == 1 else 'a'}"
         at = f"{speed:#.6g} rad/s ({speed * 30 / math.pi:.2f} rpm)"
-        if speed and self._speed_unit in ("Hz", "s"):
+        if speed and self._speed_unit in ("rpm", "Hz", "s"):
             at = speed_text(speed, self._speed_unit)
         return f"{what} at {at}, proved complete"
 

@@ -149,6 +149,7 @@ class Result(Unchangeable):
     plot = Plot()
     _core: Any
     _speed_unit: str | None = None  # in which the question was asked: printed tables and pictures speak it
+    _asked_notes: tuple[str, ...] = ()  # further lines below printed tables, about how the question was asked
     _fields: ClassVar[dict[str, Field[Any]]] = {}
     _row: ClassVar[str] = "row"
     _title: ClassVar[str] = ""
@@ -224,8 +225,9 @@ class Result(Unchangeable):
 
     def _printed(self) -> Sheet:
         """What a printed table shows, with its speeds in the unit in which the question was asked."""
-        sheet, unit = self._sheet(brief=True), self._speed_unit
-        return sheet if unit is None else in_speed_unit(sheet, unit)
+        sheet, unit, notes = self._sheet(brief=True), self._speed_unit, self._asked_notes
+        sheet = sheet if unit is None else in_speed_unit(sheet, unit)
+        return replace(sheet, notes=[*sheet.notes, *notes]) if notes else sheet
 
     def _full(self) -> Sheet:
         """All data for dictionaries and files: the columns, and the facts after the system in numbers."""
@@ -241,6 +243,9 @@ class Result(Unchangeable):
 
         numbers = {"system": type(system).__name__, **system._data()}  # as `to_dict`
         return replace(sheet, facts={"system": numbers, **sheet.facts}, named=named)
+
+    def __dir__(self) -> list[str]:
+        return [name for name in super().__dir__() if name != "plot" or hasattr(type(self), "plot")]
 
     def _state(self) -> dict[str, Any]:
         """All parts, and the other fields computed so far."""
@@ -456,8 +461,13 @@ class Results(Result, Listed[Item]):
 Answered = TypeVar("Answered", bound=Result)
 
 
-def asked_in(unit: str | None, found: Answered) -> Answered:
-    """Return a result that prints and draws its speeds in the unit of the question; in the usual ones for None."""
+def asked_in(unit: str | None, found: Answered, notes: tuple[str, ...] = ()) -> Answered:
+    """Return a result that prints and draws its speeds in the unit of the question; in the usual ones for None.
+
+    Its printed table has further `notes`, about how the question was asked.
+    """
+    if notes and isinstance(found, Result):
+        found.__dict__["_asked_notes"] = notes
     if unit is not None and isinstance(found, Result):
         found.__dict__["_speed_unit"] = unit
         items: Any = found if isinstance(found, Listed) else ()

@@ -27,9 +27,9 @@ class DragShape(Result, row="link", title="{summary}", notes=("{_remarks}",), go
     >>> carousel = rc.Rig(rc.Chain(mass=80.0, length=4.0), support=rc.Support(radius=3.0))
     >>> shape = rc.drag_shape(carousel, rc.Drag(1.0, area=0.6), angular_speed="12 rpm")
     >>> shape
-    Shape with drag at 1.25664 rad/s (12 rpm), success: torque 107.743 N m, power 135.394 W
-    link  inclination (°)  azimuth (°)  lower pin: outward (m)  in the sense of motion (m)  above support (m)  tension (N)
-       0          42.5811     -2.85545                  5.7032                    -0.13483            -2.9453      1065.48
+    Shape with drag at 12.0000 rpm (1.25664 rad/s), success: torque 107.743 N m, power 135.394 W
+    link  inclination (°)  azimuth (°)  lower pin: outward (m)  in the sense of motion (m)  above support (m)  from axis (m)  tension (N)
+       0          42.5811     -2.85545                  5.7032                    -0.13483            -2.9453         5.7048      1065.48
     azimuth: from outward towards the sense of motion, negative where a link trails; error estimate 4.4e-16 rad
     """
 
@@ -65,6 +65,10 @@ class DragShape(Result, row="link", title="{summary}", notes=("{_remarks}",), go
     height: Field[Floats] = Field(
         "z of the lower pin of each link, m, shape (N,).", lambda s: s.position[:-1, 2],
         heading="above support", unit="m", digits=5,
+    )
+    distance: Field[Floats] = Field(
+        "Distance of the lower pin of each link from the axis, m, shape (N,).", lambda s: np.hypot(s.outward, s.ahead),
+        heading="from axis", unit="m", digits=5,
     )
     tension: Field[Floats] = Field(
         "Magnitude of the reaction at the upper pin of each link, shape (N,), N or in the unit of the weights.",
@@ -120,7 +124,7 @@ class DragShape(Result, row="link", title="{summary}", notes=("{_remarks}",), go
     def _words(self) -> str:
         newton, watt = (" N m", " W") if self.system.by_mass else ("", "")
         speed = f"{self.angular_speed:.6g} rad/s ({self.angular_speed * 30 / np.pi:.4g} rpm)"
-        if self._speed_unit in ("Hz", "s"):
+        if self._speed_unit in ("rpm", "Hz", "s"):
             speed = speed_text(self.angular_speed, self._speed_unit)
         reached = "" if self.status == "success" else f" at {self.factor:.4g} of the "
         if reached:

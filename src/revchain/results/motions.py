@@ -272,7 +272,8 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
         unit="m",
     )
     largest_deflection: Field[Floats | None] = Field(
-        "Where there is an `error_estimate`: largest distance of a pin from below the support at each time, m. Else None.",
+        "Where there is an `error_estimate`: largest distance of a pin from below the support at each time, m; between the times "
+        "asked it can be larger. Else None.",
         lambda s: np.abs(s.offset - s.offset[:, -1:]).max(axis=1) if s.error_estimate is not None else None,
         heading=lambda s: "from support" if s.motion_end else "",
         unit="m",
@@ -382,7 +383,8 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
         what = "whirl" if self._turns else "mode"
         if self.energy is None:
             count = self.angular_frequency.size
-            since = f"after {self.motion_end:.6g} s the free end" if self.motion_end else "the free end"
+            end = self.system._pin_name(0)
+            since = f"after {self.motion_end:.6g} s the {end}" if self.motion_end else f"the {end}"
             sway = self.residual_sway or 0.0
             far = f"sways by {sway:.5g} m at most" if np.isfinite(sway) else "falls"
             return f"{count} {what}{'s' * (count != 1)}; {since} {far}"

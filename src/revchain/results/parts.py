@@ -42,7 +42,10 @@ class Fact(NamedTuple):
 
 
 def parts_of(system: Any) -> tuple[list[Fact], list[Column]]:
-    """Return the numbers of the whole system, and the columns of a table of its links or point masses, free end first."""
+    """Return the numbers of the whole system, and the columns of a table of its links or point masses, free end first.
+
+    Links have the numbers that they have in the caller's order.
+    """
     if not isinstance(system, System):  # a governor
         return [Fact(_words(name), value, UNITS.get(name, "")) for name, value in system._facts().items()], []
     base, by_mass = system._base, system.by_mass
@@ -59,7 +62,7 @@ def parts_of(system: Any) -> tuple[list[Fact], list[Column]]:
     if system._is_cord:
         return [*facts, *_of_cord(base)], _particles(base)
     heavy = "mass" if by_mass else "weight"
-    columns = [Column("link", np.arange(base.size), "link")]
+    columns = [Column("link", system._link_numbers, "link")]
     if base.names is not None:
         columns.append(Column("name", list(base.names), "name", left=True))
     lengths = (heavy, "length", "centroid", "radius_of_gyration")

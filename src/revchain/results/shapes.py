@@ -181,7 +181,13 @@ def _sensitivity(shape: SteadyShape) -> Sensitivity:
     return held_shape_sensitivity(shape) if hasattr(shape, "lower_pull") else shape_sensitivity(shape)
 
 
-class SteadyShape(Result, Moving, row="link", title="Steady shape of {_waves}{_at_speed}", notes=("{_order}",)):
+class SteadyShape(
+    Result,
+    Moving,
+    row="link",
+    title="Steady shape of {_waves}{_at_speed}",
+    notes=("{_order}", "{_in_compression}"),
+):
     """One steady shape (relative equilibrium) of a system at one speed.
 
     `steady_shapes`, `steady_shape` and the branches return it. Arrays start at the free end, of a held system at the
@@ -269,8 +275,9 @@ class SteadyShape(Result, Moving, row="link", title="Steady shape of {_waves}{_a
         "Height of each pin or place above the support, m; for a held system above its lower end."
     )
     tension: Field[Floats] = Field(
-        "Magnitude of the reaction at the upper pin of each link, shape (N,), N or in the unit of the weights; for a "
-        "held chain at each pin, shape (N + 1,); for a cord at each place.",
+        "Magnitude of the reaction at the upper pin of each link, shape (N,), N or in the unit of the weights; a push is "
+        "positive, too, and printed tables name the links in compression; for a held "
+        "chain at each pin, shape (N + 1,); for a cord at each place.",
         forced("tension"),
         part=True,
     )
@@ -530,6 +537,20 @@ class SteadyShape(Result, Moving, row="link", title="Steady shape of {_waves}{_a
         return at_speed(self.angular_speed, self._speed_unit)
 
     @property
+    def _compressed(self) -> list[str]:
+        """Names of the links that are pushed at their upper pins: the reaction there points from the pin into the link."""
+        if self.system._is_cord:
+            return []
+        count = len(self.inclination)
+        along = np.cos(self.reaction_inclination[-count:] - self.inclination)
+        pushed = np.flatnonzero((along < -1e-9) & (self.tension[-count:] > 0))
+        return [self.system._link_name(int(link)) for link in pushed]
+
+    @property
+    def _in_compression(self) -> str:
+        return compression("", self._compressed)
+
+    @property
     def _order(self) -> str:
         if hasattr(self, "span"):
             return "heights above the lower end"
@@ -645,7 +666,7 @@ class SteadyShapes(Results[SteadyShape], Moving, row="shape", title="{_heading}"
         heading=lambda s: "" if s._of_hanging_links else "largest distance from axis", unit="m", digits=5,
     )
     top_tension = _of_each(
-        "Tension at the upper end of each shape, N or in the unit of the weights.", lambda x: x.tension[-1],
+        "Size of the force at the upper end of each shape, N or in the unit of the weights.", lambda x: x.tension[-1],
         heading="top tension", unit="force", digits=5,
     )
     span = _of_each("Span of each shape of a held system, m.", lambda x: x.span, heading="span", unit="m", digits=5)
@@ -731,12 +752,29 @@ class SteadyShapes(Results[SteadyShape], Moving, row="shape", title="{_heading}"
 
     @property
     def _out_of_plane(self) -> str:
+        pushed = [compression(f"shape {k}: ", shape._compressed) for k, shape in enumerate(self, 1)]
+        return "\n".join(note for note in [self._leaves_plane, *pushed] if note)
+
+    @property
+    def _leaves_plane(self) -> str:
         if getattr(self.system, "is_planar", True):
             return ""
         return "both ends are off the axis: shapes that leave the plane of the ends are not searched for"
 
     def _is_good(self) -> bool:
         return self.complete or self.mode is not None or hasattr(self.system, "span")
+
+
+MOST_NAMED = 4  # links in a note
+
+
+def compression(where: str, links: list[str]) -> str:
+    """Return a note about links in compression, of which tables print the size of the force; empty if there are none."""
+    if not links:
+        return ""
+    more = f" and {len(links) - MOST_NAMED} more" if len(links) > MOST_NAMED else ""
+    names = "; ".join(links[:MOST_NAMED]) + more
+    return f"{where}in compression, which only rods can carry: {names} (tension is the size of the force)"
 
 
 def at_speed(speed: float, unit: str | None = None) -> str:

@@ -164,9 +164,9 @@ def in_unit(speed: Any, unit: str) -> Any:
 
 
 def speed_text(speed: float, unit: str | None, count: int = 6) -> str:
-    """A speed with the unit asked: in rad/s and rpm, or in Hz or as a period with rad/s beside it."""
+    """A speed with the unit asked first and rad/s beside it; in rad/s and rpm if that or none was asked."""
     radians = f"{digits(speed, count)} rad/s"
-    if unit in ("Hz", "s"):
+    if unit in ("rpm", "Hz", "s"):
         return f"{'a period of ' if unit == 's' else ''}{digits(in_unit(speed, unit), count)} {unit} ({radians})"
     return f"{radians} ({digits(speed * 30 / math.pi, 4)} rpm)"
 

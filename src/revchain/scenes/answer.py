@@ -20,14 +20,15 @@ from ..questions.modes import find_modes
 from ..questions.response import response
 from ..questions.shapes import steady_shapes
 from ..questions.swing import swing
+from ..results.sheet import digits, in_unit
 from ..systems.chain import Chain
 from ..systems.held import Held
 from ..systems.rig import Rig
 from ..systems.support_motion import KINDS, SupportMotion
-from ..systems.units import speed_unit
+from ..systems.units import SI, speed_unit
 from .parse import choice, written
-from .system import Given, Numbers, System, Whirling
-from .tables import DEFAULT_MODES, AskCampbell, AskDrag, Spread, Table, fields_of, number_fields
+from .system import Given, Numbers, System, Whirling, has_air_drag
+from .tables import DEFAULT_MODES, AskCampbell, AskDrag, Spread, Table, Tables, fields_of, number_fields
 
 
 def _equilibria(governor: SleeveGovernor, angular_speed: float | None = None) -> Any:
@@ -245,6 +246,35 @@ _CHECKS: dict[str, Callable[[Any, Given, Whirling | None, Numbers], None]] = {
     "campbell": _campbell,
     "drag": _drag,
 }
+
+
+def notes_on(scene: Tables, question: str, table: Table, given: Given, numbers: Numbers) -> tuple[str, ...]:
+    """Notes about what the answer to a question leaves out, and about plain numbers that were read in rad/s."""
+    notes = []
+    if question not in ("drag", "equilibria") and has_air_drag(scene):
+        notes.append("the drag of air is left out here: air_drag acts in [ask.drag] only")
+    if question == "swing" and is_driven_trolley(scene.support, given.get("support")):
+        notes.append("the trolley moves as prescribed: its own mass and damping have no effect")
+    unit = scene.speed
+    if unit not in (UNSET, "rad/s"):
+        for name, sign, _ in number_fields(type(table)):
+            value = getattr(table, name)
+            is_speed = SI.get(name, ("", ""))[1] == "an angular speed"
+            if is_speed and isinstance(value, float | int) and value:
+                shown = digits(in_unit(float(value), str(unit)), 4)
+                said, right = numbers.named(name, f"{value:g}"), numbers.named(name, f'"{value:g} {unit}"')
+                read = f"the plain number {said} was read as {value:g} rad/s = {shown} {unit}"
+                notes.append(f"{read}: for {value:g} {unit} write {right}")
+            elif is_speed and isinstance(value, list | tuple | Spread) and speed_unit(to_builtins(value)) is None:
+                notes.append(f'plain numbers of {name} were read in rad/s: write text such as "8 {unit}" for another unit')
+    return tuple(notes)
+
+
+def is_driven_trolley(table: Any, motion: SupportMotion | None) -> bool:
+    """Whether a support that rolls freely has a prescribed motion, so that its mass and its dashpot do not matter."""
+    if motion is None or table is UNSET or motion._what == "force":
+        return False
+    return table.stiffness in (UNSET, 0, 0.0) and not all(each in (UNSET, 0) for each in (table.mass, table.weight))
 
 
 def answered(question: str, system: System, given: Given, gravity: float, progress: _core.Progress | None) -> Any:

@@ -333,7 +333,10 @@ INSTEAD = {
     "density": "give the mass",
     "diameter": "give radius_of_gyration",
     "length_in_proportion": "write length: centroid and radius of gyration follow unless they are given",
+    "fit": "fits are made in Python, by revchain.fit",
+    "trolley": "write [support] and below it mass, without stiffness: a trolley that rolls freely",
 }
+OF_A_LINK = {"rope": 'write length, and name = "rope"', "load": 'write mass, and name = "load"'}
 
 
 def _instead(name: str, kind: type) -> str:
@@ -341,6 +344,10 @@ def _instead(name: str, kind: type) -> str:
     known = _known_keys(kind)
     if name in QUESTIONS and "ask" in known:
         return f"write [ask.{name}]"
+    if kind is Link and name.lower() in OF_A_LINK:
+        return OF_A_LINK[name.lower()]
+    if name == "diameter" and "radius" in known:
+        return "write radius, half of the diameter"
     if name.lower() in INSTEAD:
         return INSTEAD[name.lower()].format(speed="spin" if "spin" in known else "angular_speed")
     if near := get_close_matches(name, known, n=1):
@@ -390,17 +397,33 @@ def _reason(sentence: str, key: str, raw: Any, path: str, annotation: Any) -> st
             try:
                 si_value(value, quantity)
             except ValueError as error:
-                return str(error)
-        return f'must be a number, or a number and its unit such as "{SI[quantity][2]}"{got}'
+                return f"{error}{several(key, value)}"
+        return f'must be a number, or a number and its unit such as "{SI[quantity][2]}"{got}{several(key, value)}'
     if any(get_origin(part) is tuple for part in parts) and not path:
         return f'must be a pair [low, high]{got}; either end may be 0 or inf'
     if lists and not path:
+        if key.startswith("ask.swing.support_"):
+            return f'must be a list of two or more numbers{got}: write {_EXAMPLES.get(key.rpartition("_")[2], "[0, 1]")}'
         one = isinstance(value, int | float | str) and not (isinstance(value, bool) or _is_number(annotation))
         write = f": write [{written(value)}]" if one else ""
         return f"must be a {'number or a ' if _is_number(annotation) else ''}list of numbers{got}{write}"
     names = {"object": "a table", "array": "a list", "float": "a number", "int": "a whole number", "str": "text"}
     expected = re.fullmatch(r"Expected `(\w+)(?: \| null)?`.*", sentence)
     return f"must be {names.get(expected[1], 'true or false') if expected else 'something else'}{got}"
+
+
+_EXAMPLES = {"time": '["0 s", "2 s"]', "velocity": '["0 m/s", "1 m/s"]', "offset": '["0 m", "1 m"]', "force": '["0 N", "1 N"]'}
+
+
+def several(key: str, value: Any) -> str:
+    """The end of a message about several speeds where one is wanted: how a study answers for each; else empty."""
+    parts = re.split(r"\s*[;,]\s*", value) if isinstance(value, str) else value
+    one = ("ask.shapes.angular_speed", "ask.drag.angular_speed", "ask.equilibria.angular_speed")
+    if key not in one or not isinstance(parts, list) or len(parts) < 2:
+        return ""
+    if isinstance(value, str) and not all(re.fullmatch(r"[+-]?[\d.]+\s*[A-Za-z/]*", part) for part in parts):
+        return ""
+    return f'; for several speeds write a study with [vary."{key}"] and values = {written(parts)}: revchain sweep STUDY'
 
 
 def _is_number(annotation: Any) -> bool:
@@ -468,6 +491,8 @@ def without_consequences(problems: Iterable[Problem]) -> list[Problem]:
     for problem in problems:
         key = problem.key
         because = any(reason.startswith("unknown key") or name in problem.reason for name, reason in inside[key])
+        beside = inside[key.rpartition(".")[0]]
+        because = because or any(problem.reason.startswith(f"needs {name} beside it") for name, _ in beside)
         if because or key in known:
             continue
         remaining.append(problem)

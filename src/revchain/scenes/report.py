@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The report of a scene: one HTML page with the system, all answers, their bounds and pictures, to hand to a colleague."""
+"""The report of a scene: one HTML file with the system, all answers, their bounds and pictures, to hand to a colleague."""
 
 from __future__ import annotations
 
@@ -27,12 +27,13 @@ from ..results.drag import DragShape
 from ..results.explanation import Explanation
 from ..results.modes import Modes
 from ..results.motions import Response, Swing
-from ..results.parts import parts_of
+from ..results.parts import Fact, parts_of
 from ..results.shapes import SteadyShapes
-from ..results.sheet import Column, Sheet, cells
+from ..results.sheet import Column, Sheet, cells, in_unit
 from ..systems.extras import require
 from ..systems.numbers import file_path
-from .system import in_file
+from .system import Numbers, air_drag, has_air_drag, in_file
+from .tables import AskDrag
 
 if TYPE_CHECKING:
     from .scene import Scene
@@ -69,6 +70,10 @@ MEANINGS = {
 DAMPED = (
     "Each row is a motion of small amplitude from which dashpots or drag take energy: it oscillates with this period and decays, or "
     "only decays where the speed is 0. Where the decay time is negative it grows. None is a steady whirl."
+)
+ON_TROLLEY = (
+    "Natural motions",
+    "Each mode is a natural swing in a vertical plane, while the trolley rolls freely along its rails. It has one period.",
 )
 STABILITY = {
     "minimum": "stable, also with friction at the pins",
@@ -270,12 +275,13 @@ def finding(found: Any) -> str:
         first = []
         for row in range(min(len(found), MOST_NAMED)):
             speed, period = float(found.angular_speed[row]), float(found.period[row])
+            periods, unit = f"period {period:.4g} s", "s" if is_on_trolley(found.system) else found._speed_unit
             way = " forward" * (speed > 0) + " backward" * (speed < 0) if found.has_momentum else ""
-            turns = f"{abs(speed):.4g} rad/s ({abs(speed) * 30 / np.pi:.4g} rpm, period {period:.4g} s)"
+            words = f"{periods} ({abs(speed):.4g} rad/s)" if unit == "s" else f"{_speed(abs(speed), unit)[:-1]}, {periods})"
             if found._is_damped:
                 decay = float(found.decay_time[row])
-                turns = f"{turns}, " * (speed != 0) + f"{'decays' if decay > 0 else 'grows'} in {abs(decay):.4g} s {'to 1/e' if decay > 0 else 'by a factor e'}"
-            first.append(f"mode {found.number[row]}{way}: {turns}")
+                words = f"{words}, " * (speed != 0) + f"{'decays' if decay > 0 else 'grows'} in {abs(decay):.4g} s {'to 1/e' if decay > 0 else 'by a factor e'}"
+            first.append(f"mode {found.number[row]}{way}: {words}")
         more = f"; {len(found) - MOST_NAMED} more" if len(found) > MOST_NAMED else ""
         return _sentence("; ".join(first) + more)
     if isinstance(found, Modes) and found._is_good():
@@ -298,16 +304,31 @@ def _of_one_speed(found: Response) -> str:
     name = found.system._pin_name(int(pins[0]))
     far, pull = float(np.abs(found.offset.reshape(-1)[0])), float(np.abs(found.support_force.item()))
     unit = " N" if found.system.by_mass else ""
-    return f"At {speed:.4g} rad/s ({speed * 30 / np.pi:.4g} rpm) the {name} is {far:.4g} m off the axis; the pull on the support is {pull:.4g}{unit}."
+    return f"At {_speed(speed, found._speed_unit)} the {name} is {far:.4g} m off the axis; the pull on the support is {pull:.4g}{unit}."
 
 
 def _of_speeds(found: Response) -> str:
     if not found.angular_speed.size:
         return ""
-    low, high = float(found.angular_speed.min()), float(found.angular_speed.max())
-    at = [f"{speed:.4g}" for speed in found.whirl_speeds.tolist()]
-    between = f"; resonances at {', '.join(at[:MOST_CROSSINGS])} rad/s{' and more' * (len(at) > MOST_CROSSINGS)}" if at else ""
-    return f"{found.angular_speed.size:,} speeds from {low:.4g} to {high:.4g} rad/s{between}."
+    unit = found._speed_unit or "rad/s"
+    ends = in_unit(found.angular_speed, unit)
+    at = [f"{in_unit(speed, unit):.4g}" for speed in found.whirl_speeds.tolist()]
+    between = f"; resonances at {', '.join(at[:MOST_CROSSINGS])} {unit}{' and more' * (len(at) > MOST_CROSSINGS)}" if at else ""
+    what = "periods" if unit == "s" else "speeds"
+    return f"{found.angular_speed.size:,} {what} from {np.min(ends):.4g} to {np.max(ends):.4g} {unit}{between}."
+
+
+def _speed(speed: float, unit: str | None) -> str:
+    """A speed in the unit asked, with another one in brackets."""
+    if unit in ("rpm", "Hz", "s"):
+        return f"{'a period of ' if unit == 's' else ''}{in_unit(speed, unit):.4g} {unit} ({speed:.4g} rad/s)"
+    return f"{speed:.4g} rad/s ({speed * 30 / np.pi:.4g} rpm)"
+
+
+def is_on_trolley(system: Any) -> bool:
+    """Return whether the support of a system is a trolley: a mass that rolls freely."""
+    support = getattr(system, "_support", None)
+    return support is not None and bool(support._yields) and support.stiffness == 0
 
 
 def _sentence(text: str) -> str:
@@ -419,7 +440,7 @@ def _glance(answers: Mapping[str, Any]) -> str:
             kind = next((each for each in ("open", "proved", "computed") if each in kinds), "computed")
             words = finding(found)
         rows.append(
-            f'<li><span class="mark {kind}">{WORDS[kind]}</span> <a href="#{question}">{escape(TITLES.get(question, question))}</a>: '
+            f'<li><span class="mark {kind}">{WORDS[kind]}</span> <a href="#{question}">{escape(_title(question, found))}</a>: '
             f"{escape(words)}</li>"
         )
     return f'<ul class="glance">{"".join(rows)}</ul>' if rows else ""
@@ -432,6 +453,17 @@ def _system(scene: Scene, system: Any) -> str:
     words = system.describe().split("; ")
     listed = "".join(f"<li>{escape(part[:1].upper() + part[1:])}</li>" for part in words)
     facts, links = parts_of(system)
+    if has_air_drag(scene):
+        asked = scene.ask.drag.air_density if isinstance(scene.ask.drag, AskDrag) else UNSET
+        numbers = Numbers("scene")
+        density = None if asked is UNSET else numbers.value("air_density", asked, "air_density", "positive")
+        air = air_drag(scene, density, numbers)
+        assert air is not None
+        facts.append(Fact("density of the air", float(air.density), "kg/m^3"))
+        size = len(links[0].values)
+        for name, unit in (("coefficient", ""), ("diameter", "m"), ("area", "m^2")):
+            heading = f"drag {name}" + (f" ({unit})" if unit else "")
+            links.append(Column(f"drag_{name}", np.broadcast_to(air._given.get(name, 0.0), size), heading, unit=unit))
     facts = [fact for fact in facts if fact.name != "system" and not (isinstance(fact.value, float) and fact.value in (0.0, np.inf))]
     if isinstance(system, SleeveGovernor):
         facts = [
@@ -443,7 +475,7 @@ def _system(scene: Scene, system: Any) -> str:
         for fact in facts
     )
     table = f'<div class="wide"><table class="facts"><tbody>{rows}</tbody></table></div>' if rows else ""
-    table += _links(links, ("upper", "lower") if getattr(system, "_is_held", False) else ("support", "free"))
+    below = _links(links, "upper end" if getattr(system, "_is_held", False) else "support", scene.order)
     picture = _picture(lambda: plot_to_scale(system), f"The system at rest, drawn to scale: {system.describe()}", "drawing")
     scale = "At rest, to scale. Symbols of bodies are not to scale."
     if isinstance(system, SleeveGovernor):
@@ -453,13 +485,13 @@ def _system(scene: Scene, system: Any) -> str:
     return f"""<section id="system">
 <h2>The system</h2>
 <div class="beside"><figure>{picture}<figcaption>{scale}</figcaption></figure>
-<div><ul class="parts">{listed}</ul></div></div>
-{table}
+<div><ul class="parts">{listed}</ul>{table}</div></div>
+{below}
 </section>"""
 
 
-def _links(columns: list[Column], ends: tuple[str, str]) -> str:
-    """The table of links from one end to the other, with equal neighbours in one row."""
+def _links(columns: list[Column], top: str, order: str) -> str:
+    """The table of links from the top down, numbered in the order of the scene, with equal neighbours in one row."""
     if not columns:
         return ""
     size, names = len(columns[0].values), [column.name for column in columns]
@@ -481,13 +513,15 @@ def _links(columns: list[Column], ends: tuple[str, str]) -> str:
     headings = [*["link"] * counted, *["name"] * bool(labels), *[column.heading for column in shown]]
     body = []
     for first, last, key in rows[:MOST_RUNS]:
-        place = f"{first}" if first == last else f"{first} to {last}"
+        ends = sorted(int(columns[names.index("link")].values[k]) for k in (first, last)) if counted else [first, last]
+        place = f"{ends[0]}" if first == last else f"{ends[0]} to {ends[1]}"
         body.append(([place] if counted else []) + key)
     numbers = [*[False] * counted, *[False] * bool(labels), *[True] * len(shown)]
     more = f'<p class="note">The other {size - sum(b - a + 1 for a, b, _ in rows[:MOST_RUNS]):,} links are not shown.</p>' if len(rows) > MOST_RUNS else ""
     caption = "Point masses; distances from the free end"
     if counted:
-        caption = f"Links, from the {ends[0]}{' end' * (ends[0] == 'upper')}; link 0 is at the {ends[1]} end"
+        which = f"the one at the {top}" if order == "support first" else "the lowest"
+        caption = f"Links from the {top} down; link 0 is {which}, the first in the scene"
     return _table(caption, headings, body, numbers) + more
 
 
@@ -499,11 +533,13 @@ def _plain(value: Any) -> str:
 
 def _answer(scene: Scene, question: str, found: Any, units: str) -> str:
     """The section of one question."""
-    heading = f'<section id="{question}">\n<h2>{escape(TITLES.get(question, question))}</h2>\n'
+    title = _title(question, found)
+    heading = f'<section id="{question}">\n<h2>{escape(title)}</h2>\n'
     heading += _asked(scene, question)
     if isinstance(found, str):
         return f'{heading}<p class="verdict open"><b>No answer.</b> {escape(_sentence(found))}</p>\n</section>'
-    meaning = DAMPED if isinstance(found, Modes) and found._is_damped else MEANINGS.get(question, "")
+    damped, on_trolley = isinstance(found, Modes) and found._is_damped, title == ON_TROLLEY[0]
+    meaning = DAMPED if damped else ON_TROLLEY[1] if on_trolley else MEANINGS.get(question, "")
     parts = [heading, f'<p class="meaning">{escape(meaning)}</p>']
     said = "".join(
         f'<li class="{verdict.kind}"><b>{WORDS[verdict.kind]}.</b> {escape(verdict.sentence)}</li>' for verdict in verdicts(found)
@@ -516,9 +552,15 @@ def _answer(scene: Scene, question: str, found: Any, units: str) -> str:
     notes = [re.sub(r"\bnan\b", "–", _sentence(note)) for note in notes if note]
     parts.append("".join(f'<p class="note">{escape(_upright(note))}</p>' for note in notes))
     if not isinstance(found, Explanation):
-        alternative = f"{TITLES.get(question, question)}: {finding(found)}"
+        alternative = f"{title}: {finding(found)}"
         parts.append(f"<figure>{_picture(lambda: found.plot(**drawn(found)), alternative, 'plot')}</figure>")
     return "\n".join(part for part in parts if part) + "\n</section>"
+
+
+def _title(question: str, found: Any) -> str:
+    """The heading of an answer."""
+    trolley = question == "modes" and is_on_trolley(getattr(found, "system", None))
+    return ON_TROLLEY[0] if trolley else TITLES.get(question, question)
 
 
 def _asked(scene: Scene, question: str) -> str:

@@ -16,7 +16,7 @@ from ..results.files import naming, written_aside
 from ..systems.numbers import text
 from ..systems.units import speed_unit
 from . import parse
-from .answer import MOVES, SPEEDS, answered, arguments
+from .answer import MOVES, SPEEDS, answered, arguments, notes_on
 from .error import Problem, SceneError
 from .positions import positions_in
 from .system import Numbers, System, air_drag, problem_of, system_of
@@ -280,7 +280,7 @@ class Scene(Tables, frozen=True, weakref=True):
     def report(self, path: str | os.PathLike[str]) -> None:
         """Answer all questions of the scene and write a report, to hand to a colleague.
 
-        The report is one HTML page that needs no other file and no network: the system in words and in a scale drawing, each
+        The report is one HTML file that needs no other file and no network: the system in words and in a scale drawing, each
         answer with its table, bounds and picture, what is proved, the text of the scene, and how to repeat it.
 
         Parameters
@@ -342,8 +342,9 @@ class Scene(Tables, frozen=True, weakref=True):
                 numbers = Numbers("scene", options=options)
                 given = self._arguments(question, table, system, numbers)
                 numbers.done()
+            notes = () if question == "explain" else notes_on(self, question, table, given, Numbers("scene", options=options))
             found = answered(question, system, given, gravity, progress)
-            return found if unit is None else asked_in(unit, found)
+            return asked_in(unit, found, notes) if unit is not None or notes else found
         except ValueError as error:
             if not isinstance(error, SceneError):
                 error = SceneError("scene", problems=[self._problem_of(error, question, self._table(question, changed))])
@@ -418,7 +419,10 @@ class Scene(Tables, frozen=True, weakref=True):
         table = parse.convert(data, TABLES[question], "scene", problems)
         if problems:
             where = f"ask.{question}."
-            raise SceneError("scene", problems=[each._replace(key=where + each.key) for each in problems])
+            raise SceneError("scene", problems=[
+                each._replace(key=where + each.key, reason=each.reason + parse.several(where + each.key, data.get(each.key)))
+                for each in problems
+            ])  # fmt: skip
         return table
 
     def _made(self) -> dict[str, Any]:

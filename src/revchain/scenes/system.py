@@ -21,7 +21,7 @@ from ..systems.rig import Displaced, Flywheel, Pin, Rig, Support
 from ..systems.units import SI, si_value, speed_unit
 from . import tables
 from .error import Problem, SceneError
-from .parse import without_consequences, written
+from .parse import several, without_consequences, written
 from .tables import MOST_LINKS, SYSTEMS, Link, Links, Spread, Table, Tables, number_fields
 
 MOST = 1e100  # largest number of a scene, in SI units: products of a few numbers stay within the range of double
@@ -95,7 +95,7 @@ class Numbers:
         try:
             number = si_value(given, quantity) if isinstance(given, str) else float(given)
         except ValueError as error:
-            self.refuse(key, str(error))
+            self.refuse(key, f"{error}{several(f'{self.table}.{key}', given)}")
             return math.nan
         if math.isnan(number) or (finite and math.isinf(number)):
             must = "be finite" if finite else "be a number"
@@ -132,7 +132,10 @@ class Numbers:
                 return 1 / np.linspace(1 / first, 1 / last, given.steps)
             return (np.geomspace if given.log else np.linspace)(first, last, given.steps)
         if isinstance(given, str) and (words := re.fullmatch(r"(\S.*?)\s+to\s+(.+)", given)):
-            range_ = f'a range is written {{from = "{words[1]}", to = "{words[2]}"}}'
+            to, _, steps = words[2].partition(" in ")
+            said = [end if re.fullmatch(r"[+-]?[\d.]+", end) else f'"{end}"' for end in (_with_unit_of(words[1], to), to.strip())]
+            count = f", steps = {steps.strip()}" if steps.strip().isdigit() else ""
+            range_ = f"a range is written {{from = {said[0]}, to = {said[1]}{count}}}"
             self.refuse(key, f'{range_ if ranges else "must be one number, not a range"}, got "{given}"')
             return math.nan
         return self.value(key, given, key, sign)
@@ -171,6 +174,12 @@ class Numbers:
             self.refuse("", "mass (kg) or weight (N) is missing")
         if heavy or not optional:
             found[prefix + self.heavy] = heavy
+
+
+def _with_unit_of(number: str, other: str) -> str:
+    """A plain number with the unit of another text, such as the 1 of "1 to 60 rpm"; any other text unchanged."""
+    unit = re.sub(r"^[+-]?[\d.]+", "", other.strip()).strip()
+    return f"{number} {unit}".strip() if re.fullmatch(r"[+-]?[\d.]+", number) else number
 
 
 def _are_periods(key: str, given: Sequence[Any]) -> bool:
@@ -393,6 +402,13 @@ def _rig(chain: Chain | None, scene: Tables, numbers: Numbers) -> Rig | None:
     except ValueError as error:
         numbers.problems.append(problem_of(error, "links" if links else "support", links))
         return None
+
+
+def has_air_drag(scene: Tables) -> bool:
+    """Whether a link of the scene has quadratic drag of air."""
+    whole = scene.uniform_chain if scene.tapered_chain is UNSET else scene.tapered_chain
+    rows = [link for _, link in scene._bodies()] if isinstance(whole, UnsetType) else [whole]
+    return any(row.air_drag is not UNSET for row in rows)
 
 
 def air_drag(scene: Tables, density: float | None, numbers: Numbers) -> Drag | None:

@@ -116,10 +116,11 @@ class System(Unchangeable):
         return f"pin {pin}, {'above' if self._is_held or self._stands[pin] else 'below'} {name}" if name else f"pin {pin}"
 
     def _link_name(self, link: int) -> str:
-        """Name of a link for legends and tables, with its number."""
+        """Name of a link for legends and tables, with its number in the caller's order."""
         names = getattr(self._base, "names", None) or ()
         name = names[link] if link < len(names) else ""
-        return f"link {link}, {name}" if name else f"link {link}"
+        number = self._link_numbers[link]
+        return f"link {number}, {name}" if name else f"link {number}"
 
     def describe(self) -> str:
         """Return a description of the system in words, from the support down.
