@@ -190,6 +190,7 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
     half_waves: Field[Whole] = Field(
         "Sign changes of the offsets, that of the support included, plus one, as in `SteadyShape`.",
         lambda b: b._half_waves(),
+        part=True,
         heading="half waves",
     )
     is_fold: Field[NDArray[np.bool_]] = Field(
