@@ -127,6 +127,9 @@ class Field(Generic[Value]):
         return tuple.__new__(Column, data)  # Column(...) would take a call more
 
 
+_ASKED = ("_speed_unit", "_asked_notes", "_by_speed")  # how the question was asked, as far as printed tables tell it
+
+
 class UnavailableError(AttributeError, ValueError):
     """The error of a field that some results of a class do not have; for `hasattr` they do not have it."""
 
@@ -250,7 +253,7 @@ class Result(Unchangeable):
     def _state(self) -> dict[str, Any]:
         """All parts, and the other fields computed so far."""
         parts = {name: getattr(self, name) for name, field in self._fields.items() if field.part and hasattr(self, name)}
-        return parts | {name: value for name, value in dict(self.__dict__).items() if name in self._fields or name == "_speed_unit"}
+        return parts | {name: value for name, value in dict(self.__dict__).items() if name in self._fields or name in _ASKED}
 
     def to_dict(self) -> dict[str, Any]:
         """Return the data of the table as plain Python data.

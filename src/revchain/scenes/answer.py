@@ -248,7 +248,7 @@ _CHECKS: dict[str, Callable[[Any, Given, Whirling | None, Numbers], None]] = {
 }
 
 
-def notes_on(scene: Tables, question: str, table: Table, given: Given, numbers: Numbers) -> tuple[str, ...]:
+def notes_on(scene: Tables, question: str, table: Table, given: Given, options: bool) -> tuple[str, ...]:
     """Notes about what the answer to a question leaves out, and about plain numbers that were read in rad/s."""
     notes = []
     if question not in ("drag", "equilibria") and has_air_drag(scene):
@@ -257,6 +257,7 @@ def notes_on(scene: Tables, question: str, table: Table, given: Given, numbers: 
         notes.append("the trolley moves as prescribed: its own mass and damping have no effect")
     unit = scene.speed
     if unit not in (UNSET, "rad/s"):
+        numbers = Numbers("scene", options=options)
         for name, sign, _ in number_fields(type(table)):
             value = getattr(table, name)
             is_speed = SI.get(name, ("", ""))[1] == "an angular speed"

@@ -407,8 +407,12 @@ def _rig(chain: Chain | None, scene: Tables, numbers: Numbers) -> Rig | None:
 def has_air_drag(scene: Tables) -> bool:
     """Whether a link of the scene has quadratic drag of air."""
     whole = scene.uniform_chain if scene.tapered_chain is UNSET else scene.tapered_chain
-    rows = [link for _, link in scene._bodies()] if isinstance(whole, UnsetType) else [whole]
-    return any(row.air_drag is not UNSET for row in rows)
+    if not isinstance(whole, UnsetType):
+        return whole.air_drag is not UNSET
+    for _, link in scene._bodies():
+        if link.air_drag is not UNSET:
+            return True
+    return False
 
 
 def air_drag(scene: Tables, density: float | None, numbers: Numbers) -> Drag | None:
