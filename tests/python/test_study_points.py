@@ -143,6 +143,8 @@ def of_modes(scene):
     if m.system._kind != "rig":
         return {name: getattr(m, name) for name in names}, m.status == "success"
     found = {"other_modes": m.other_available, "modes_complete": m.complete}
+    if not m.has_momentum:
+        return found | {name: getattr(m, name) for name in (*names, "speed_error_bound")}, m.status == "success"
     for turn, which in (("forward", m.direction > 0), ("backward", m.direction < 0)):
         for name in (*names, "speed_error_bound"):
             found[f"{turn}_{name}"] = np.abs(getattr(m, name)[which])
