@@ -139,7 +139,7 @@ def test_results_are_values(tmp_path):
     diagram = rc.branches(CAROUSEL, max_angular_speed=4.0)
     assert "from rest" in repr(diagram) and "from rest" in repr(diagram[0]) and "isolated" in repr(diagram[1])
     assert diagram[0].to_dict()["birth"] == "rest"
-    assert diagram.plot().get_title() == "all branches: proved complete" and diagram[1].plot()
+    assert diagram.plot().get_title() == "all branches of hanging shapes: proved complete" and diagram[1].plot()
     diagram.save(tmp_path / "diagram.npz")
     for twin in (pickle.loads(pickle.dumps(diagram)), rc.load(tmp_path / "diagram.npz")):
         assert twin == diagram and twin[1].birth == "fold"

@@ -6,6 +6,7 @@ import json
 import math
 import re
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -285,6 +286,7 @@ def test_pictures_take_every_unit():
         ax = found.plot(speed=unit)
         labels = [ax.get_xlabel(), *(label.get_text() for label in ax.get_xticklabels())]
         assert any(unit in label for label in labels), (type(found), unit)
+        plt.close(ax.figure)
     periods = results[-1].plot(speed="s")
     assert periods.get_ylabel() == "period of the motion (s)"
     one = results[-1].crossings[0]

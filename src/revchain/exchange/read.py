@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 from xml.parsers import expat
 
+from ..results.files import naming
 from ..systems.chain import Chain
 from ..systems.extras import require
 from ..systems.numbers import STANDARD_GRAVITY, file_path
@@ -186,7 +187,8 @@ def read_model(function: str, source: Any, root: str, ignore: Any, links: Any) -
     chosen = () if links is None else listed_words(function, "links", links)
     is_text = isinstance(source, str) and source.lstrip().startswith("<")
     name = "" if is_text else file_path(function, "source", source)
-    content = source if is_text else Path(name).read_bytes()
+    with naming(name):
+        content = source if is_text else Path(name).read_bytes()
     try:
         text = Text(content, name, findings)
     except (expat.ExpatError, ValueError, LookupError) as error:
