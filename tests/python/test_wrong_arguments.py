@@ -124,6 +124,7 @@ ONE_OF = {
 WRITTEN = {  # by method: a film of a few frames
     "animate": {"path": "film.html", "duration": 0.2},
     "to_excel": {"path": "result.xlsx"},
+    "report": {"path": "report.html"},
     "to_glb": {"path": "solid.glb", "duration": 0.2},
 }
 # Some are loaded when first asked for: all of them here, so that the list does not depend on which tests came before.
