@@ -377,3 +377,13 @@ def test_postures_that_are_refused():
 def test_straight_branches_have_no_verdict():
     short = rc.branch(plummets(3), 1, min_conical_height=np.nextafter(rc.modes(plummets(3)).conical_height[0], 0))
     assert isinstance(short, Branch) and short.verdict[0] == "" and len(short.stability_windows()) == len(short) - 1
+
+
+def test_links_in_tables_of_branches_count_as_listed():
+    """As in all tables: a chain listed from the support has its link 0 there."""
+    chain = rc.Chain(mass=[3.0, 1.0], length=1.0, names=["hook b", "load"], order="support first")
+    table = rc.branches(chain, max_angular_speed=5.0).to_dataframe()
+    one = rc.branch(chain, 1, max_angular_speed=5.0)
+    names = ["inclination_link_1_load", "inclination_link_0_hook_b"]
+    assert [name for name in table if name.startswith("inclination")] == names
+    np.testing.assert_array_equal(one.to_dataframe()[names].to_numpy(), one.inclination)

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import groupby, pairwise
@@ -19,7 +18,7 @@ from ..systems.units import SPEED_UNITS
 from .base import Field, Result, Results, UnavailableError, asked_in
 from .moving import Moving
 from .shapes import FORCES, SteadyShape, forced, is_driven, shape_made, stacked
-from .sheet import Column, Sheet, as_dataframe, as_rows
+from .sheet import Column, Sheet, as_dataframe, as_rows, in_columns
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -553,7 +552,7 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         (['inclination_link_0_load', 'inclination_link_1_hook'], 'minimum')
         """
         sheet = self._sheet()
-        return as_dataframe(replace(sheet, columns=[part for each in sheet.columns for part in _by_link(each, self.system)]))
+        return as_dataframe(replace(sheet, columns=_by_link(sheet, self.system)))
 
     @property
     def _per(self) -> float:
@@ -760,7 +759,7 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
             return sheet
         words = [each for each in sheet.columns if each.name in ("branch", "mode", "inverted")]
         columns = [each._replace(values=np.repeat(np.asarray(each.values), self.points)) for each in words]
-        parts = [[part for each in Result._sheet(branch).columns for part in _by_link(each, branch.system)] for branch in self]
+        parts = [_by_link(Result._sheet(branch), branch.system) for branch in self]
         for column in parts[0] if parts else []:
             of_each = [each.values for part in parts for each in part if each.name == column.name]
             if len(of_each) == len(self) and all(isinstance(values, np.ndarray) for values in of_each):
@@ -783,15 +782,10 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
         return f"{which}: {len(self) - isolated} {begin}, {isolated} isolated; {remark}"
 
 
-def _by_link(column: Column, system: Any) -> list[Column]:
-    """The column; one for each link if it has a number for each."""
-    if column.axes != ("link",) or not isinstance(column.values, np.ndarray):
-        return [column]
-    names = getattr(system._base, "names", None) or [""] * system.size
-    words = [re.sub(r"\W+", "_", f"link {k} {name}").strip("_") for k, name in enumerate(names)]
-    return [
-        column._replace(name=f"{column.name}_{word}", values=column.values[:, k], axes=()) for k, word in enumerate(words)
-    ]
+def _by_link(sheet: Sheet, system: Any) -> list[Column]:
+    """The columns; one for each link where a column has a number for each."""
+    named = replace(sheet, named=lambda axis, link: system._link_name(link) if axis == "link" else "")
+    return in_columns(named, system.size)
 
 
 def _verdict_column(branches: Sequence[Branch]) -> list[Column]:
