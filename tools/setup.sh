@@ -24,6 +24,8 @@ needs_table='
    emscripten emscripten               emscripten emscripten         emscripten
    node      nodejs                    node      nodejs              nodejs
    chromium  chromium                  chromium  chromium            chromium
+   pandoc    pandoc                    pandoc    pandoc              pandoc
+   latex     texlive-latex-recommended,lmodern texlive texlive-collection-latexrecommended,texlive-lm texlive-core
 '
 
 # package_names COLUMN NEED...
@@ -71,6 +73,8 @@ sys.exit(sys.version_info < (3, 11) or not os.path.exists(sysconfig.get_path("in
     emscripten) command -v emcc ;;
     node) command -v node ;;
     chromium) command -v chromium || command -v chromium-browser || command -v google-chrome ;;
+    pandoc) command -v pandoc ;;
+    latex) command -v pdflatex && kpsewhich lmodern.sty && kpsewhich booktabs.sty ;;
     spectra) compiles '#if !__has_include(<Spectra/SymEigsSolver.h>)\n#error\n#endif' ;;
   esac >/dev/null
 }
