@@ -284,8 +284,9 @@ OTHER_ARRAYS = {  # arrays of a file, and what is said of it
     "a list": ({"revchain": "[]"}, "attribute 'get'"),
     "no JSON": ({"revchain": "no JSON"}, "Expecting value"),
     "no result": ({"revchain": '{"format": "revchain 2"}'}, "'result'"),
-    "another version": ({"revchain": '{"format": "revchain 99"}'}, "save the result again"),
-    "the version before": ({"revchain": '{"format": "revchain 1"}'}, "save the result again"),
+    "a format of nobody": ({"revchain": '{"format": "revchain 1"}'}, NOT_OURS),
+    "no format": ({"revchain": '{"result": 3}'}, NOT_OURS),
+    "no number": ({"revchain": '{"format": 3}'}, NOT_OURS),
 }
 
 
@@ -293,6 +294,34 @@ OTHER_ARRAYS = {  # arrays of a file, and what is said of it
 def test_other_arrays(npz, arrays, words):
     np.savez(npz, **{name: np.array(array) for name, array in arrays.items()})
     refused(npz, words)
+
+
+LATER = {  # headers of files of later versions, and what is said of them
+    "format": ({"format": "revchain 99", "version": "9.8.7"}, "has format 99, but .* up to 2; it was saved by revchain 9.8.7: "),
+    "no version": ({"format": "revchain 3"}, "has format 3, but .*; install a later version$"),
+    "no word": ({"format": "revchain 3", "version": "9.8\n7"}, "has format 3, but .*; install a later version$"),
+    "kind": (
+        {"format": "revchain 2", "version": "9.8.7", "result": {"result": "Knot", "module": "revchain.knots", "state": {}}},
+        "holds a Knot, which revchain .* does not know; it was saved by revchain 9.8.7: install that version or a later one$",
+    ),
+    "kind inside": (
+        {"format": "revchain 2", "result": {"result": "Modes", "state": {"x": {"result": "Knot", "state": {}}}}},
+        "holds a Knot, which revchain .* does not know; install a later version$",
+    ),
+}
+
+
+@pytest.mark.parametrize(("header", "words"), LATER.values(), ids=LATER)
+def test_files_of_later_versions(npz, header, words):
+    np.savez(npz, revchain=np.array(json.dumps(header)))
+    refused(npz, words)
+
+
+def test_the_version_that_saved_a_result_is_in_the_file(npz):
+    rc.modes(CHAIN).save(npz)
+    with np.load(npz) as file:
+        said = json.loads(str(file["revchain"]))
+    assert (said["format"], said["version"]) == ("revchain 2", rc.__version__)
 
 
 def test_a_pickled_array_is_refused_by_name(npz, monkeypatch):
