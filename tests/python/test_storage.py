@@ -36,6 +36,8 @@ FLOATING = rc.Displaced(weight=[1.0, 1.0, 2.0], centroid=0.4, radius_of_gyration
 FLOATS = {"displaced": rc.Displaced(weight=[1, 0, 0]), "fluid": "turning"}
 BUOY = {"displaced": rc.Displaced(weight=1.0), "flywheels": rc.Flywheel(momentum=3.0)}
 SPRING = rc.Support(stiffness=5.0)
+ARM = rc.Rig(rc.Chain(mass=[1.0, 2.0], length=1.0), support=rc.Support(radius=0.4))
+GOVERNOR = rc.SleeveGovernor(ball_mass=2.0, arm=0.3, lower_arm=0.3, sleeve_mass=5.0)
 CAROUSEL = rc.Rig(CHAIN, support=rc.Support(stiffness=5.0, radius=0.2))
 SIX = rc.Chain.uniform_rods(6)
 PLUCKED = np.ones(CHAIN.size) / 9
@@ -142,6 +144,9 @@ RESULTS = {  # every kind of result, made when a test asks for it
     "SteadyShapes, on arms": lambda: rc.steady_shapes(rc.Held(SIX, span=0.5, **ARMS), angular_speed=9.0),
     "SteadyShape, weightless": lambda: rc.steady_shapes(rc.Held(NAMED, span=0.5, weightless=True), angular_speed=9.0)[0],
     "SteadyShape of a held cord": lambda: rc.steady_shapes(rc.Held(rc.Cord(1.0, mass=1.0), tension=26.0), conical_height=0.05)[0],
+    "Campbell": lambda: rc.campbell(ARM, [1.0, 2.0]),
+    "DragShape": lambda: rc.drag_shape(ARM, rc.Drag(coefficient=1.0, diameter=0.05), angular_speed=2.0),
+    "GovernorEquilibria": lambda: GOVERNOR.equilibria(angular_speed=9.0),
     "BufferImpact": lambda: rc.BufferImpact(front_mass=1, rear_mass=3, buffer_stiffness=10, coupling_stiffness=1, speed=2),
     "GovernorMotion": lambda: rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5),
     "GovernorMotion, revolving": lambda: rc.GovernorMotion(angular_speed=2.0, pendulum_length=1.0, angle=3.0, angle_rate=-4.0),
