@@ -8,7 +8,8 @@ other files gets a folder and a program of its own beside this one.
 
     written.tar.xz   results/*.npz and *.nc from `save`; results/*.json, the `to_dict()` of each; answers/SCENE/*.json from
                      `revchain run` of each scene, and first lines of *.csv; studies/*.nc from `revchain sweep`
-    interface.json   names, parameters and attributes in Python, options of the commands, exit codes, keys of scenes and studies
+    interface.json   names, parameters and attributes in Python, names in C++, options of the commands, exit codes, keys of
+                     scenes and studies
     scenes, *.toml   written by hand: together they have every key of scene and study files
 """
 
@@ -16,6 +17,7 @@ from __future__ import annotations
 
 import inspect
 import json
+import re
 import sys
 import tarfile
 import tempfile
@@ -38,13 +40,13 @@ TWO = rc.Chain(mass=[1.0, 2.0], length=[0.5, 0.7], centroid=[0.4, 0.2], radius_o
 WEIGHTS = rc.Chain(weight=[3.0, 1.0], length=1.0, order="support first")
 RODS = rc.Chain.uniform_rods(3, length=1.0, mass=1.0)
 WHEEL = rc.Rig(TWO, flywheels=rc.Flywheel(momentum=0.2, axial_moment=0.01), support=rc.Support(stiffness=50.0, mass=0.3))
-DAMPED = rc.Rig(TWO, pins=rc.Pin(stiffness=[0.0, 2.0], damping=0.1), support=rc.Support(stiffness=50.0, damping=1.0), drag=0.2)
+JOINTS = rc.Pin(stiffness=[0.0, 2.0], damping=0.1)
+DAMPED = rc.Rig(TWO, pins=JOINTS, support=rc.Support(stiffness=50.0, damping=1.0), drag=0.2)
 ARM = rc.Rig(TWO, support=rc.Support(radius=0.4))
 FLOAT = rc.Rig(WEIGHTS, displaced=rc.Displaced(weight=[1.0, 0.4], centroid=0.9, added_weight=0.1))
 TURNING = rc.Rig(WEIGHTS, displaced=rc.Displaced(weight=[1.0, 0.4]), fluid="turning", support=rc.Support(stiffness=5.0))
-STANDING = rc.Rig(
-    rc.Chain(mass=[1.0, 1.0], length=0.5), inverted=[True, False], flywheels=rc.Flywheel(mass=0.5, radius_of_gyration=0.1, spin=500.0)
-)
+SPUN = rc.Flywheel(mass=0.5, radius_of_gyration=0.1, spin=500.0)
+STANDING = rc.Rig(rc.Chain(mass=[1.0, 1.0], length=0.5), inverted=[True, False], flywheels=SPUN)
 CORD = rc.Cord(1.0, mass=2.0, tip_mass=0.1)
 CLASP = rc.Cord(1.0, mass=1.0, masses={0.5: 0.2}, tip_mass=0.1, tip_centroid=0.02, tip_radius_of_gyration=0.01)
 SPAN = rc.Held(RODS, span=0.7, lower=rc.Support(radius=0.1), upper=rc.Support(stiffness=400.0, mass=0.1))
@@ -53,8 +55,8 @@ ROPE = rc.Held(rc.Cord(1.0, mass=1.0), span=0.7)
 STRING = rc.Held(rc.Cord(1.0, mass=1.0), tension=20.0, weightless=True)
 BELL = rc.Chain(mass=[18.0, 500.0], length=[0.65, 0.15], centroid=0.3, radius_of_gyration=0.1)
 GOVERNOR = rc.SleeveGovernor(
-    ball_mass=1.5, arm=0.12, pivot_offset=0.12, sleeve_arm=0.06, sleeve_mass=2.0, spring_stiffness=5000.0, spring_force=150.0,
-    lowest_inclination=-0.2, highest_inclination=0.3,
+    ball_mass=1.5, arm=0.12, pivot_offset=0.12, sleeve_arm=0.06, sleeve_mass=2.0, spring_stiffness=5000.0,
+    spring_force=150.0, lowest_inclination=-0.2, highest_inclination=0.3,
 )  # fmt: skip
 MEASURED = {1: (3.3, "2 %"), 2: (8.4, "2 %")}
 
@@ -136,13 +138,20 @@ def scenes() -> list[Path]:
 
 
 def parameters(thing: Any) -> list[str] | None:
-    """Names of the parameters in order, with "*" before those by keyword alone and "=" after those with a default."""
+    """Names of the parameters in order, with "*" before those by keyword alone, and "=" and the default if there is one."""
     try:
         given = inspect.signature(thing).parameters.values()
     except (TypeError, ValueError):
         return None
-    keyword = {inspect.Parameter.KEYWORD_ONLY: "*", inspect.Parameter.VAR_KEYWORD: "**", inspect.Parameter.VAR_POSITIONAL: "*"}
-    return [f"{keyword.get(each.kind, '')}{each.name}{'=' * (each.default is not each.empty)}" for each in given]
+    kinds = inspect.Parameter
+    keyword = {kinds.KEYWORD_ONLY: "*", kinds.VAR_KEYWORD: "**", kinds.VAR_POSITIONAL: "*"}
+
+    def default(value: Any) -> str:
+        if value is inspect.Parameter.empty:
+            return ""
+        return f"={value!r}" if value is None or isinstance(value, bool | int | float | str) else "="
+
+    return [f"{keyword.get(each.kind, '')}{each.name}{default(each.default)}" for each in given]
 
 
 def described(thing: Any) -> Any:
@@ -165,6 +174,15 @@ def keys(schema: dict[str, Any]) -> dict[str, list[str]]:
     return {name: sorted(table["properties"]) for name, table in schema["$defs"].items() if "properties" in table}
 
 
+def names_in_headers() -> dict[str, list[str]]:
+    """The public names of each C++ header, from the index of the reference."""
+    found: dict[str, list[str]] = {}
+    text = (FOLDER.parents[2] / "docs" / "reference" / "cpp.md").read_text(encoding="utf-8")
+    for name, header in re.findall(r"(?m)^\| `([\w:~]+)` \| \[(\w+\.hpp)\]", text):
+        found.setdefault(header, []).append(name)
+    return found
+
+
 def interface() -> dict[str, Any]:
     """The public names of the installed version."""
     from typer.main import get_command
@@ -173,6 +191,7 @@ def interface() -> dict[str, Any]:
 
     commands = get_command(app).commands  # type: ignore[attr-defined]
     return {
+        "c++": names_in_headers(),
         "python": {name: described(getattr(rc, name)) for name in sorted({*dir(rc), *rc._RECEIVED} - {"__version__"})},
         "command_line": {
             name: sorted(option for each in command.params for option in each.opts + each.secondary_opts)

@@ -115,7 +115,8 @@ def test_loaded_results_answer_questions(written):
         return rc.load(written / "results" / f"{name}.npz")
 
     assert of("modes").uncertainty(mass="3 %") == made.asked("modes").uncertainty(mass="3 %")
-    np.testing.assert_allclose(*(branch.at(angular_speed=4.0)[0].offset for branch in (of("branch"), made.asked("branch"))), rtol=1e-9)
+    then, now = (branch.at(angular_speed=4.0)[0] for branch in (of("branch"), made.asked("branch")))
+    np.testing.assert_allclose(now.offset, then.offset, rtol=1e-9)
     for name in ("shape", "shape_held", "shape_of_cord"):
         assert of(name).stability().verdict == made.asked(name).stability().verdict
 
@@ -161,24 +162,25 @@ def kept(now, then, path=""):
         assert set(then) <= set(now), (path, set(then) - set(now))
         for name in then:
             kept(now[name], then[name], f"{path}.{name}")
-    elif isinstance(then, list) and path.startswith((".scene", ".study", ".command_line")):
+    elif isinstance(then, list) and path.startswith((".c++", ".scene", ".study", ".command_line")):
         assert set(then) <= set(now), (path, set(then) - set(now))
     elif isinstance(then, list):
-        by_order = [name for name in then if name[0] != "*"]
-        assert [name.rstrip("=") for name in now[: len(by_order)]] == [name.rstrip("=") for name in by_order], path
-        names = {name.strip("*=") for name in now}
-        assert {name.strip("*=") for name in then} <= names, path
-        required = {name.strip("*") for name in now if name[-1] != "=" and not name.startswith("**")}
-        assert required <= {name.strip("*") for name in then if name[-1] != "="}, path
+        for place, name in enumerate(then):  # with its default; one that is given by position stays where it is
+            assert name in (now if name[0] == "*" else now[place : place + 1]), (path, name)
+        assert all("=" in name or name.startswith("**") for name in set(now) - set(then)), path
     else:
         assert now == then, path
 
 
 def test_public_names_stay():
+    from revchain.plots.style import STYLE
+    from revchain.plots.sweep import plot_sweep
+
+    assert isinstance(STYLE, dict) and callable(plot_sweep)
     kept(made.interface(), read(FOLDER / "interface.json"))
 
 
-@pytest.mark.parametrize("change", ["name", "attribute", "order", "required", "option", "code", "key"])
+@pytest.mark.parametrize("change", ["name", "attribute", "order", "default", "required", "option", "code", "key", "header"])
 def test_a_missing_name_is_found(change):
     now, then = read(FOLDER / "interface.json"), read(FOLDER / "interface.json")
     kept(now, then)
@@ -187,13 +189,17 @@ def test_a_missing_name_is_found(change):
     elif change == "attribute":
         del now["python"]["Modes"]["period"]
     elif change == "order":
-        now["python"]["modes"].insert(1, "first=")
+        now["python"]["modes"].insert(1, "first=1")
+    elif change == "default":
+        now["python"]["modes"][1] = "count=9"
     elif change == "required":
         now["python"]["modes"].append("*units")
     elif change == "option":
         now["command_line"]["modes"].remove("--count")
     elif change == "code":
         now["exit_codes"]["OUTPUT_FAILED"] = 5
+    elif change == "header":
+        now["c++"]["modes.hpp"].remove("ModesOptions")
     else:
         now["scene"]["Link"].remove("mass")
     with pytest.raises(AssertionError):
@@ -201,7 +207,7 @@ def test_a_missing_name_is_found(change):
 
 
 def test_comparison_finds_changes():
-    then = {"modes": [{"period": 2.0, "error_bound": 1e-16, "direction": 1}, {"period": 1.0, "error_bound": 1e-16, "direction": 1}]}
+    then = {"modes": [{"period": period, "error_bound": 1e-16, "direction": 1} for period in (2.0, 1.0)]}
     agree({"modes": [{**row, "error_bound": 0.0, "new": 3} for row in then["modes"]]}, then)
     changes = {"period": 2.000001, "direction": -1}
     for name, value in changes.items():
