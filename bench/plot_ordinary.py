@@ -1,26 +1,25 @@
 # SPDX-License-Identifier: MPL-2.0
 """The bars of README: time of the fastest NumPy or SciPy program over that of revchain.
 
-    bench/run --only ordinary --csv FILE.csv
-    .venv/bin/python bench/plot_ordinary.py FILE.csv OUT.svg
+    python bench/plot_ordinary.py ordinary.csv    writes ordinary.svg beside it; not of a quick run
 """
 
 import csv
 import sys
+from pathlib import Path
 
 from picture import plt, save
 
 KINDS = {"plummets, all modes with shapes": ("point masses", "#0072b2"), "rods, all modes with shapes": ("rods", "#d55e00")}
-SIZES = (2, 5, 20, 100, 300, 1000, 3000)
+SIZES = (2, 8, 20, 100, 300, 1000, 3000)
 
 
 def read(path):
     with open(path, encoding="utf-8") as file:
-        rows = csv.DictReader(line for line in file if not line.startswith("#"))
-        return {(row["job"], int(row["N"])): float(row["ratio"]) for row in rows if row["ratio"]}
+        return {(row["job"], int(row["N"])): float(row["ratio"]) for row in csv.DictReader(file) if row["ratio"]}
 
 
-def main(source, out):
+def main(source):
     ratio = read(source)
     figure, axes = plt.subplots(figsize=(8, 2.9), layout="constrained")
     for k, (job, (name, colour)) in enumerate(KINDS.items()):
@@ -41,7 +40,7 @@ def main(source, out):
     axes.set_xlabel("links")
     axes.set_title("Time that the fastest NumPy or SciPy program takes, over that of revchain: all modes", loc="left")
     axes.legend(loc="upper left")
-    save(figure, out, "bench/run --only ordinary")
+    save(figure, Path(source).with_suffix(".svg"), "bench/ordinary.py")
 
 
 if __name__ == "__main__":
