@@ -223,7 +223,7 @@ LISTS = {
 
 def steady_shapes(r):
     rows = [r.row("steady-shapes", chain=chain) for chain in LISTS]
-    return table(["chain", "shapes", "ms"], [[name, row["shapes"], digits(float(row["milliseconds"]))]
+    return table(["chain", "shapes", "ms"], [[name, f"{int(row['shapes']):,}", digits(float(row["milliseconds"]))]
                                              for name, row in zip(LISTS.values(), rows, strict=True)])
 
 
@@ -245,7 +245,7 @@ def diagrams(r):
     names = {"plummets 8 to n = 5 sqrt(g/a)": "8 equal plummets to 5 sqrt(g/a)", "rods 20 of 1 m to 20 rad/s":
              "20 rods, 1 m in all, to 20 rad/s", "rods 20 of 2 m to 20 rad/s": "20 rods, 2 m in all, to 20 rad/s"}
     rows = [r.row("steady-shapes", chain=f"branches: {name}") for name in names]
-    return table(["diagram", "branches", "ms"], [[name, row["shapes"], digits(float(row["milliseconds"]))]
+    return table(["diagram", "branches", "ms"], [[name, f"{int(row['shapes']):,}", digits(float(row["milliseconds"]))]
                                                  for name, row in zip(names.values(), rows, strict=True)])
 
 
