@@ -110,7 +110,8 @@ def run(part, folder, quick):
 
 def output(*command, stdin=""):
     try:
-        done = subprocess.run(command, input=stdin, capture_output=True, text=True, cwd=ROOT, check=True, env=ENVIRONMENT)
+        done = subprocess.run(command, input=stdin, capture_output=True, text=True, cwd=ROOT, check=True,
+                              env=ENVIRONMENT)
     except (OSError, subprocess.CalledProcessError):
         return ""
     return done.stdout.strip()
@@ -120,7 +121,8 @@ def machine():
     """Processor, cores, caches; no names."""
     fields = dict(line.split(":", 1) for line in output("lscpu").splitlines() if ":" in line)
     vectors = [name for name in ("avx512f", "avx2", "asimd") if name in fields.get("Flags", "").split()]
-    found = {"processor": fields.get("Model name", platform.machine()).strip(), "cores": os.cpu_count(), "vectors": vectors[:1]}
+    found = {"processor": fields.get("Model name", platform.machine()).strip(), "cores": os.cpu_count(),
+             "vectors": vectors[:1]}
     return found | {name: fields[name].strip() for name in ("L1d cache", "L2 cache", "L3 cache") if name in fields}
 
 

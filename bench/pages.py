@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MPL-2.0
 """Writes what the documentation quotes of bench/results, so that a new run leaves no page stale.
 
-    python bench/pages.py             writes the tables between `<!-- results: NAME -->` and `<!-- end -->`, and the numbers of
-                                      CLAIMS; prints each sentence of HOLDS that is no longer true, to be written anew
-    python bench/pages.py --check     writes nothing; exit status 1 if something is not as the results are
+    python bench/pages.py            writes the tables between `<!-- results: NAME -->` and `<!-- end -->`, and the numbers
+                                     of CLAIMS; prints each sentence of HOLDS that is no longer true, to be written anew
+    python bench/pages.py --check    writes nothing; exit status 1 if something is not as the results are
 
 What has no results yet (before the first whole run) is left as it is, and printed.
 """
@@ -145,10 +145,10 @@ class Peer:
     kind_of_peer: str = ""
 
 
-FACTORED = "scipy eigsh, factored inverse"
+FACTORED, DIRECT = "scipy eigsh, factored inverse", ("direct Newton", "direct, two points")
 PEERS = (
-    Peer("C", 10**6, 10, 0, ("dstebz", FACTORED, "direct Newton", "direct, two points"), "10 slowest of 1,000,000 plummets"),
-    Peer("R", 10**6, 10, 0, (FACTORED, "direct Newton", "direct, two points"), "10 slowest of 1,000,000 rods"),
+    Peer("C", 10**6, 10, 0, ("dstebz", FACTORED, *DIRECT), "10 slowest of 1,000,000 plummets"),
+    Peer("R", 10**6, 10, 0, (FACTORED, *DIRECT), "10 slowest of 1,000,000 rods"),
     Peer("C", 10_000, 10_000, 1e-14, ("dlasq1", "dsterf"), "all of 10,000 plummets, to 1e-14"),
     Peer("C", 10_000, 10_000, 0, ("dlasq1",), "all of 10,000 plummets, to the last digit"),
     Peer("R", 10_000, 10_000, 1e-14, ("dsbgv",), "all of 10,000 rods, to 1e-14"),
@@ -176,7 +176,7 @@ def heights(r):
                 continue
             first = number == 0
             rows.append([job.name if first else "", digits(1e3 * ours) if first else "", digits(error) if first else "",
-                         f"`{peer}`" if peer[0] == "d" and "direct" not in peer else peer, ratio(theirs / ours), digits(its)])
+                         f"`{peer}`" if peer[0] == "d" and peer not in DIRECT else peer, ratio(theirs / ours), digits(its)])
     for kind in ("plummets", "rods"):
         row = r.row("batch", kind=kind, N=10)
         chains = int(row["chains"])
@@ -186,7 +186,7 @@ def heights(r):
     return table(["modes of random chains", "CPU ms", "error, ulp", "peer", "times its CPU time", "its error, ulp"], rows)
 
 
-METHODS = ("modes", "dstebz", "scipy eigsh", "Spectra shift-invert", FACTORED, "direct Newton")
+METHODS = ("modes", "dstebz", "scipy eigsh", "Spectra shift-invert", FACTORED, DIRECT[0])
 AT = (100, 10_000, 1_000_000)
 
 
@@ -216,7 +216,7 @@ LISTS = {
     "any posture: rods 4 at a/lambda 166": "4 rods in any posture, a/λ = 166",
     "120 plummets to 8 links at lambda >= 1e-3 L": "120 random chains of up to 8 plummets, λ from 1e-3 L: the slowest",
     "120 rods to 8 links at lambda >= 1e-3 L": "120 random chains of up to 8 rods, the same",
-    "120 links of l > a to 4 links at lambda >= 1e-3 L": "120 random chains of up to 4 links that can hang at three inclinations",
+    "120 links of l > a to 4 links at lambda >= 1e-3 L": "120 of up to 4 links that can hang at three inclinations",
     "rods 100000 on branch 1 at twice the first speed": "one shape of 100,000 rods at twice the first critical speed",
 }
 
@@ -235,29 +235,30 @@ def random_shapes(r):
     rows = []
     for n in (2, 3, 4, 6, 8, 10, 12):
         share = 50 if n > 6 else 200
-        lists = [cell(f"random {kind} {n} at lambda = L/{at}") for at in (100, 1000) for kind in ("plummets", "rods")]
-        rows.append([str(n), *lists, *(cell(f"branches: random {kind} {n} to L/{share}") for kind in ("plummets", "rods"))])
+        kinds = ("plummets", "rods")
+        lists = [cell(f"random {kind} {n} at lambda = L/{at}") for at in (100, 1000) for kind in kinds]
+        rows.append([str(n), *lists, *(cell(f"branches: random {kind} {n} to L/{share}") for kind in kinds)])
     return table(["N", "plummets, λ = L/100, ms", "rods", "plummets, λ = L/1000", "rods",
                   "branches to L/200 (N > 6: L/50), plummets", "rods"], rows)
 
 
 def diagrams(r):
-    names = {"plummets 8 to n = 5 sqrt(g/a)": "8 equal plummets to 5 sqrt(g/a)", "rods 20 of 1 m to 20 rad/s":
-             "20 rods, 1 m in all, to 20 rad/s", "rods 20 of 2 m to 20 rad/s": "20 rods, 2 m in all, to 20 rad/s"}
+    names = {"plummets 8 to n = 5 sqrt(g/a)": "8 equal plummets to 5 sqrt(g/a)"}
+    names |= {f"rods 20 of {length} m to 20 rad/s": f"20 rods, {length} m in all, to 20 rad/s" for length in (1, 2)}
     rows = [r.row("steady-shapes", chain=f"branches: {name}") for name in names]
     return table(["diagram", "branches", "ms"], [[name, f"{int(row['shapes']):,}", digits(float(row["milliseconds"]))]
                                                  for name, row in zip(names.values(), rows, strict=True)])
 
 
 def continuous(r):
-    rows = [["`steady_shapes` of a `Cord`" if row["method"] == "revchain" else row["method"], digits(float(row["milliseconds"])),
-             ", ".join(row[what] for what in ("right", "wrong", "missing")), digits(float(row["inclination_error"]), 1)]
-            for row in r("continuous")]
+    rows = [["`steady_shapes` of a `Cord`" if row["method"] == "revchain" else row["method"],
+             digits(float(row["milliseconds"])), ", ".join(row[what] for what in ("right", "wrong", "missing")),
+             digits(float(row["inclination_error"]), 1)] for row in r("continuous")]
     return table(["method", "ms", "right, wrong, missing", "error of inclinations"], rows)
 
 
 def threads(r):
-    rows = [[row["question"].replace("lambda", "λ"), *(digits(float(row[name])) for name in ("ms by one thread", "ms by 2")),
+    rows = [[row["question"].replace("lambda", "λ"), digits(float(row["ms by one thread"])), digits(float(row["ms by 2"])),
              f"{float(row['ratio']):.1f}"] for row in r("threads")]
     return table(["question", "ms, one thread", "ms, two", "ratio"], rows)
 
@@ -265,7 +266,8 @@ def threads(r):
 UNITS = {
     "chain.hpp": "`chain.hpp`", "revchain.hpp": "`revchain.hpp` alone", "modes of ten links": "`modes`, ten links",
     "modes by all methods": "`modes`, ten links, all methods", "README program": "the program of the README",
-    "steady_shapes": "`steady_shapes`, ten links", "branches": "`branches`", "response": "`response`", "stability": "`stability`",
+    "steady_shapes": "`steady_shapes`, ten links", "branches": "`branches`", "response": "`response`",
+    "stability": "`stability`",
 }
 
 
@@ -274,7 +276,8 @@ def compile_times(r):
     for unit, name in UNITS.items():
         alone = r.row("compile-times", unit=unit, way="header-only")
         linked = r.row("compile-times", unit=unit, way="revchain::compiled")
-        rows.append([name, alone["x Eigen/Dense"], "-" if unit.endswith("hpp") else alone["program KB"], linked["x Eigen/Dense"]])
+        size = "-" if unit.endswith("hpp") else alone["program KB"]
+        rows.append([name, alone["x Eigen/Dense"], size, linked["x Eigen/Dense"]])
     return table(["program", "header-only", "size, KB", "`revchain::compiled`"], rows)
 
 
@@ -301,11 +304,13 @@ def time_text(us):
 
 def tradeoff(r):
     """The cheapest model that keeps a tolerance, and its time."""
-    chains = [(kind, links, "0") for kind in ("equal plummets", "equal rods", "random rods") for links in (5, 100, 1000, 100_000)]
-    chains += [(kind, 100, "0.3") for kind in ("equal rods", "random rods")]
+    kinds = ("equal plummets", "equal rods", "random rods")
+    chains = [(kind, links, "0") for kind in kinds for links in (5, 100, 1000, 100_000)]
+    chains += [(kind, 100, "0.3") for kind in kinds[1:]]
     rows = []
     for kind, links, inclination in chains:
-        points = [row for row in r.rows("tradeoff", scene=kind, links=links, modes=3, inclination=inclination) if row["took_us"]]
+        asked = r.rows("tradeoff", scene=kind, links=links, modes=3, inclination=inclination)
+        points = [row for row in asked if row["took_us"]]
         cells = [f"{links:,} {kind}" + (f", {inclination} rad" if inclination != "0" else "")]
         for rtol in TOLERANCES:
             good = [row for row in points if float(row["bound"]) <= rtol]
@@ -316,10 +321,11 @@ def tradeoff(r):
 
 
 def choices(r):
-    answers, above, broken = r.said("tradeoff", r"(\d+) answers asked; (\d+) errors above their bound, (\d+) tolerances not kept")
+    pattern = r"(\d+) answers asked; (\d+) errors above their bound, (\d+) tolerances not kept"
+    answers, above, broken = r.said("tradeoff", pattern)
     number, share = r.said("tradeoff", r"(\d+) choices, \d+ \(([\d.]+) %\)")
     predicted, off = r.said("models", r"(\d+) of (\d+) predictions beyond a factor of 3")[::-1]
-    good, asked, percent, violated = r.said("choices", r"(\d+) of (\d+) \(([\d.]+) %\) .* cheapest; (\d+) bounds violated")
+    _, asked, percent, violated = r.said("choices", r"(\d+) of (\d+) \(([\d.]+) %\) .* cheapest; (\d+) bounds violated")
     return table(["program", "measured", "result"], [
         ["`bench_tradeoff`", f"{int(answers):,} answers", f"{above} errors above their bound, {broken} tolerances not met"],
         ["", f"{int(number):,} choices", f"{share} % within a factor of 2 of the cheapest"],
@@ -385,22 +391,30 @@ def near(value, *stated, factor=1.5):
     return min(stated) / factor <= value <= max(stated) * factor
 
 
+def compiled_faster(r):
+    alone, linked = (r.value("compile-times", "CPU s", unit="README program", way=way)
+                     for way in ("header-only", "revchain::compiled"))
+    return f"{alone / linked:.0f}"
+
+
 def elliptic_lost(r):
-    """Whether GSL has not a digit of a function where the complementary modulus is below 1e-8, and this library has all."""
+    """Whether GSL has no digit of a function where the complementary modulus is at most 1e-8, and this library has all."""
     small = [row for row in r("elliptic") if float(row["complementary_modulus"]) <= 1e-8]
-    return max(float(row["gsl_error"] or 0) for row in small) >= 1 and max(float(row["error"]) for row in r("elliptic")) < 1e-14
+    ours = max(float(row["error"]) for row in r("elliptic"))
+    return max(float(row["gsl_error"] or 0) for row in small) >= 1 and ours < 1e-14
 
 
 CLAIMS = (
     Claim("README.md", r"relative errors reach (\S+) at 1000 links",
-          lambda r: digits(max(float(row["peer_error"]) for job in SHAPES for row in r.rows("ordinary", job=job, N=1000)), 1)),
+          lambda r: digits(max(r.value("ordinary", "peer_error", job=job, N=1000) for job in SHAPES), 1)),
     Claim("README.md", r"`revchain::compiled` compiles this program (\d+) times faster",
-          lambda r: f"{r.value('compile-times', 'CPU s', unit='README program', way='header-only') / r.value('compile-times', 'CPU s', unit='README program', way='revchain::compiled'):.0f}"),
+          compiled_faster),
 )
 HOLDS = (
     Holds("README.md", "With 20 or more links it finds modes faster than NumPy and SciPy",
           lambda r: min(ratios(r, JOBS, SIZES[2:])) >= 1),
-    Holds("docs/index.md", "faster than NumPy and SciPy for 20 or more links", lambda r: min(ratios(r, JOBS, SIZES[2:])) >= 1),
+    Holds("docs/index.md", "faster than NumPy and SciPy for 20 or more links",
+          lambda r: min(ratios(r, JOBS, SIZES[2:])) >= 1),
     Holds("docs/index.md", "a hundred times as fast as SciPy for the ten slowest modes of a million links",
           lambda r: 80 <= r.value("ordinary", "ratio", job=MILLION[0]) <= 200),
     Holds("docs/benchmarks.md", "The error of every mode of every kind is at most 0.5 ulp",
@@ -426,9 +440,11 @@ HOLDS = (
           lambda r: near(r.value("continuous", "milliseconds", method="revchain"), 1.8)),
     Holds("include/revchain/models/finite_amplitude.hpp", "(bench_tradeoff: 5 to 1000 links, within a factor of 1.6)",
           lambda r: all(near(float(row["took_us"]) / int(row["links"]) / int(row["modes"]), 8, factor=1.6)
-                        for row in r.rows("tradeoff", model="finite amplitude") if row["took_us"] and int(row["links"]) > 2)),
-    Holds("include/revchain/methods.hpp", "all modes of 1000 links in 7 ms instead of 32 (bench_engines)", lambda r: near(
-        engine(r, "random plummets", 1000, "automatic"), 7000) and near(engine(r, "random plummets", 1000, "bisection"), 32000)),
+                        for row in r.rows("tradeoff", model="finite amplitude")
+                        if row["took_us"] and int(row["links"]) > 2)),
+    Holds("include/revchain/methods.hpp", "all modes of 1000 links in 7 ms instead of 32 (bench_engines)",
+          lambda r: near(engine(r, "random plummets", 1000, "automatic"), 7000)
+          and near(engine(r, "random plummets", 1000, "bisection"), 32000)),
     Holds("include/revchain/response.hpp", "10 to 40 ns for each link and speed", lambda r: all(
         near(float(row["ns per link and speed"]), 10, 40) for row in r("response"))),
 )

@@ -58,7 +58,8 @@ def test_every_result_is_read(tools, repository):
     """By a table, a sentence or a picture of a page, or it is linked there."""
     results = tools[0].Results()
     tools[0].pages(results)
-    quoted = "".join(path.read_text(encoding="utf-8") for path in [repository / "README.md", *repository.glob("docs/**/*.md")])
+    texts = [repository / "README.md", *repository.glob("docs/**/*.md")]
+    quoted = "".join(path.read_text(encoding="utf-8") for path in texts)
     drawn = {f"{part.name}.csv" for part in tools[1].PARTS if part.picture}
     read = results.opened | drawn | {"about.json"} | set(re.findall(r"bench/results/([\w.-]+)", quoted))
     assert {file.name for file in results.folder.iterdir()} <= read
