@@ -45,7 +45,7 @@ PARTS = (
     Part("ordinary", ("ordinary.py", "--csv", CSV), ("--quick",), picture="plot_ordinary.py"),
     Part("heights", ("heights.py", "--csv", CSV), ("--quick",), ("bench_worker", "bench_worker_native"), "plot_heights.py"),
     Part("batch", ("bench_batch",), ("1000",)),
-    Part("engines", ("bench_engines",), ("0", "0", "10", "100")),
+    Part("engines", ("bench_engines", "0", "0", "10", "100", "1000"), ("0", "0", "10")),
     Part("models", ("bench_models",), None, table=False),
     Part("choices", ("bench_models", "choice", "1000"), ("choice", "5"), table=False),
     Part("select", ("bench_models", "select"), table=False),
@@ -98,11 +98,14 @@ def run(part, folder, quick):
     else:
         with table.open("w", encoding="utf-8") as file:
             done = subprocess.run(command, stdout=file, stderr=subprocess.PIPE, text=True, env=ENVIRONMENT, cwd=ROOT)
+    status = done.returncode
+    if part.table and (not table.exists() or table.read_text(encoding="utf-8").count("\n") < 2):
+        status = 2  # no rows
     said = done.stderr.splitlines()
     print(*said, sep="\n", end="\n" if said else "")
-    if part.picture and done.returncode in (0, 1):
-        subprocess.run([sys.executable, BENCH / part.picture, table], check=True)
-    return {"seconds": round(time.monotonic() - start), "status": done.returncode, "said": said}
+    if part.picture and status in (0, 1) and subprocess.run([sys.executable, BENCH / part.picture, table]).returncode:
+        status = 2
+    return {"seconds": round(time.monotonic() - start), "status": status, "said": said}
 
 
 # ---- what the results were measured with ---------------------------------------------------------------------------

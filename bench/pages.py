@@ -434,6 +434,11 @@ HOLDS = (
     Holds("docs/theory/convergence.md", "the order is 1.000 with plummets at the lower ends, and 2.00 with",
           lambda r: all(abs(r.value("shape-convergence", "order", cutting=cutting, half_waves=1, links=5120) - order) < 0.005
                         for cutting, order in (("lower pins", 1), ("l = 3a/4", 2), ("cell centres", 2)))),
+    Holds("docs/theory/convergence.md", "have an order of 1.90 to 1.95 at 5120 links", lambda r: all(
+        1.895 <= float(row["order"]) <= 1.955 for row in r.rows("shape-convergence", links=5120)
+        if row["cutting"] in ("rods", "l = a", "l = a/2", "l = 5a/6"))),
+    Holds("include/revchain/explain.hpp", "predicted times were within a factor of 3 of measured times",
+          lambda r: r.said("models", r"(\d+) of \d+ predictions")[0] == "0"),
     Holds("include/revchain/batch.hpp", "0.2 microseconds for plummets, 0.35 for rods (bench/batch.cpp)", lambda r: near(
         r.value("batch", "us", kind="plummets", N=10), 0.2) and near(r.value("batch", "us", kind="rods", N=10), 0.35)),
     Holds("include/revchain/finite/cord/continuous_chain.hpp", "length/height 500 take 1.8 ms (bench/continuous.cpp)",
