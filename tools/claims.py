@@ -70,7 +70,7 @@ def of_page(path: Path, text: str) -> list[Sentence]:
     found = []
     blank = lambda match: "\n" * match.group().count("\n")  # noqa: E731
     text = re.sub(r"^( *)(```|~~~).*?^\1\2\s*$", blank, text, flags=re.S | re.M)
-    text = re.sub(r"<!-- results .*?<!-- end -->", blank, text, flags=re.S)
+    text = re.sub(r"<!-- results: .*?<!-- end -->", blank, text, flags=re.S)
     for match in re.finditer(r"(?:^(?!\s*$).*\n?)+", text, re.M):
         line = 1 + text[: match.start()].count("\n")
         for block in re.split(r"\n(?=\s*(?:\||[-*] |\d+\. |#))", match.group()):

@@ -19,6 +19,7 @@ needs_table='
    ccache    ccache                    ccache    ccache              ccache
    lapack    libopenblas-dev           openblas  openblas-devel      openblas
    spectra   libspectra-dev            spectra   spectra-devel       spectralib
+   boost     libboost-dev              boost     boost-devel         libboost-headers
    clang     clang                     llvm      clang               clangxx
    fuzzer    clang,libclang-rt-dev     llvm      clang,compiler-rt   clangxx,compiler-rt
    emscripten emscripten               emscripten emscripten         emscripten
@@ -75,6 +76,7 @@ sys.exit(sys.version_info < (3, 11) or not os.path.exists(sysconfig.get_path("in
     chromium) command -v chromium || command -v chromium-browser || command -v google-chrome ;;
     pandoc) command -v pandoc ;;
     latex) command -v pdflatex && kpsewhich lmodern.sty && kpsewhich booktabs.sty ;;
+    boost) compiles '#include <boost/numeric/odeint.hpp>' ;;
     spectra) compiles '#if !__has_include(<Spectra/SymEigsSolver.h>)\n#error\n#endif' ;;
   esac >/dev/null
 }

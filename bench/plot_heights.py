@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MPL-2.0
-"""Work-precision diagrams of what bench/run measured: python bench/plot_work_precision.py FOLDER/measurements.csv
+"""Pictures of what bench/heights.py measured: python bench/plot_heights.py heights.csv
 
-Writes, beside the file, one picture for each number of links (a panel for each kind of chain) and one of cost against
-the number of links. Needs matplotlib.
+Writes, beside the file, heights-cost.svg (CPU time of the ten slowest modes against the number of links) and
+heights-precision.svg (CPU time against error, all modes, for the tolerances). Needs matplotlib.
 """
 
 import csv
@@ -19,17 +19,12 @@ FLOOR = 1e-34  # of the error axis: exact results are drawn here
 # Colours that colour-blind readers tell apart (Okabe and Ito): black and blues for this library, one hue a family.
 STYLE = {
     "modes": ("#000000", "o"),
-    "modes, float": ("#000000", "v"),
-    "modes, long double": ("#000000", "s"),
-    "modes, double-double": ("#000000", "D"),
-    "modes, __float128": ("#000000", "*"),
     "modes, from Python": ("#777777", "o"),
     "modes_dense": ("#777777", "P"),
     "modes_recurrence": ("#777777", "X"),
     "direct Newton": ("#D55E00", "o"),
     "direct, two points": ("#D55E00", "^"),
     "dstebz": ("#0072B2", "o"),
-    "dstebz, abstol = 2 safmin": ("#0072B2", "^"),
     "dstemr": ("#0072B2", "s"),
     "dsterf": ("#0072B2", "D"),
     "dlasq1": ("#0072B2", "P"),
@@ -49,14 +44,12 @@ STYLE = {
 
 def read(path):
     with path.open(encoding="utf-8") as file:
-        lines = file.read().splitlines()
-    rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+        rows = list(csv.DictReader(file))
     for row in rows:
         row["links"], row["modes"] = int(row["links"]), int(row["modes"])
         row["ms"], row["error"] = float(row["cpu_seconds"]) * 1e3, float(row["error"])
         row["rtol"] = float(row["rtol"] or 0)
-    comments = [line[2:] for line in lines if line.startswith("# ") and "SPDX" not in line]
-    return [row for row in rows if row["build"] != "portable" and isfinite(row["ms"])], comments
+    return [row for row in rows if row["build"] != "portable" and isfinite(row["ms"])]
 
 
 def curves(rows):
@@ -141,16 +134,15 @@ def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     path = Path(sys.argv[1])
-    rows, comments = read(path)
-    source = "; ".join(comments[:3])
-    for links in sorted({row["links"] for row in rows}):
-        for of_all in (False, True):
-            here = [r for r in rows if r["links"] == links and (r["modes"] == links) == of_all]
-            if here and links >= 10:
-                which = "all modes" if of_all else f"the {here[0]['modes']} slowest modes"
-                name = f"work-precision-{links}{'-all' if of_all and links > 10 else ''}.svg"
-                save(work_precision(here, links, which), path.with_name(name), source)
-    save(cost(rows), path.with_name("cost.svg"), source)
+    rows = read(path)
+    tolerances = defaultdict(set)
+    for row in rows:
+        if row["links"] == row["modes"]:
+            tolerances[row["links"]].add(row["rtol"])
+    links = max(tolerances, key=lambda n: (len(tolerances[n]), n))
+    all_modes = [row for row in rows if row["links"] == row["modes"] == links]
+    save(work_precision(all_modes, links, "all modes"), path.with_name("heights-precision.svg"), "bench/heights.py")
+    save(cost(rows), path.with_name("heights-cost.svg"), "bench/heights.py")
 
 
 if __name__ == "__main__":
