@@ -45,7 +45,7 @@ class Jacobi(NamedTuple):
 @described(
     "``1e-15 * (|f| + |u df/du|)`` for complementary moduli from 1e-150 to 1; if ``abs(u)`` exceeds 1e15, no digit of "
     "sn, cn and dn is correct",
-    cost="0.1 microseconds for each number",
+    cost="0.07 microseconds for each number",
 )
 def jacobi(u: ArrayLike, *, modulus: float | None = None, complementary_modulus: float | None = None) -> Jacobi:
     """Return Jacobi's elliptic functions for one modulus; give exactly one of the modulus and its complement.

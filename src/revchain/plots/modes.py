@@ -91,7 +91,7 @@ class Straight:
         return max([*reach, WHEEL * self.system.has_momentum])
 
     def room(self, narrow: float = 1.0) -> tuple[float, float]:
-        """Return how far bodies and a spring reach to the left, and names to the right if columns are so many times narrower."""
+        """Return how far bodies and a spring reach to the left, and names to the right, in columns `narrow` times narrower."""
         far, longest = self.beside(), max((len(line) + 2 for name in self.names() for line in name.split("\n")), default=0)
         left = max(SPACING / 2, far + 0.2 + 0.9 * (self.system._support is not None))
         return left, max(SPACING / 2, far + narrow * longest * LETTER * SPACING / COLUMN)
@@ -440,7 +440,7 @@ def _draw_mode(ax: Axes, modes: Modes, straight: Straight, row: int, shape: Floa
 
 
 def plot_carried(found: Response, ax: Axes | None, pins: list[int], unit: SpeedUnit) -> Axes:
-    """Draw the response at one speed as a shape, with the support on its circle; with dashpots when its lowest pin is farthest."""
+    """Draw the response at one speed as a shape; with dashpots at the moment when its lowest pin is farthest."""
     straight = Straight(found.system)
     across = np.full(straight.level.size, np.nan)
     available = np.atleast_1d(found.pins)

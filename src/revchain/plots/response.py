@@ -31,9 +31,8 @@ def plot_response(
 ) -> Axes:
     """Draw the distances of pins from the axis against the speed, on a logarithmic scale.
 
-    A line is dashed if the pin is on the side opposite to the support (with dashpots: behind by more than a quarter of a turn);
-    vertical lines mark the resonances.
-    A response at one speed is drawn as a shape: the offsets of the pins against their depths.
+    A line is dashed if the pin is on the side opposite to the support (with dashpots: behind by more than a quarter of a
+    turn); vertical lines mark the resonances. A response at one speed is drawn as a shape: the offsets of the pins against their depths.
 
     pins: Numbers of the pins to draw. If left out: the lowest and up to three others, evenly spaced; all at a
         single speed.
@@ -155,10 +154,10 @@ def plot_swing(
 
 @described(bound=True)
 def plot_campbell(found: Campbell, ax: Axes | None = None, *, speed: str | None = None) -> Axes:
-    """Draw the frequencies against the speed, with its multiples and a dot at each crossing; red where the shape is unstable.
+    """Draw the frequencies against the speed, its multiples, and a dot at each crossing; red where the shape is unstable.
 
-    speed: Unit of speeds and frequencies: ``"rpm"``, ``"rad/s"``, ``"Hz"``, or ``"s"``, which draws periods against the period.
-        If left out, that of the question, or rpm.
+    speed: Unit of speeds and frequencies: ``"rpm"``, ``"rad/s"``, ``"Hz"``, or ``"s"``, which draws periods against the
+        period. If left out, that of the question, or rpm.
 
     >>> import numpy as np
     >>> carousel = rc.Rig(rc.Chain(mass=80.0, length=4.0), support=rc.Support(radius=3.0))

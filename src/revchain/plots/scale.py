@@ -33,8 +33,8 @@ WIDE_NAME = 26  # letters in a line
 def plot_to_scale(system: Any) -> Axes:
     """Return a drawing of a system at rest, true to scale, with the lengths and masses of its links.
 
-    Symbols of bodies are larger than life where these are small. A system whose ends are held a span apart is drawn as an arc
-    of its length; a governor with its arms half-way between its stops.
+    Symbols of small bodies are larger than true to scale. A system whose ends are held a span apart is drawn as an arc of
+    its length; a governor with its arms half-way between its stops.
 
     Examples
     --------
@@ -132,7 +132,7 @@ class _Drawing:
         return [(int(a), int(b) - 1) for a, b in zip(first[:-1], first[1:], strict=True)] if first.size <= MOST_TEXTS + 1 else []
 
     def _wheels(self) -> Any:
-        """Whether each link has a flywheel with momentum, drawn as a bar."""
+        """Return whether each link has a flywheel with momentum, drawn as a bar."""
         return (self.system._momentum(1.0) != 0) & ~np.isin(np.arange(self.base.size), [*self.straight._forms])
 
     def drawn(self) -> Axes:

@@ -495,7 +495,7 @@ def _parts_of_data(caller: str, value: Any, data: Floats) -> list[Any]:
 
 
 def _spread(caller: str, given: Any, datum: float) -> Any:
-    """What stands behind +- in text such as "38 m +- 0.5 m", whose first number must be the datum; anything else unchanged."""
+    """The text after +- in text such as "38 m +- 0.5 m", whose first number must be the datum; other values unchanged."""
     parts = with_tolerance(given) if isinstance(given, str) else None
     if parts is None:
         return given

@@ -73,7 +73,8 @@ def load(path: str | os.PathLike[str]) -> Result:
     Raises
     ------
     ValueError
-        If the path has another ending, or the file does not contain a result or is damaged: the checksums of ``.npz`` find every changed number.
+        If the path has another ending, or the file does not contain a result or is damaged: the checksums of ``.npz``
+        find every changed number.
     ImportError
         If a package for ``.nc`` is not installed; the message says how to install it.
     OSError

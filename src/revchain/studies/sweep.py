@@ -56,8 +56,8 @@ def sweep(
         The study, its file, or its data.
     out : path-like, optional
         File for the results: ``.nc`` (netCDF, which xarray reads), or a table with a row for each point, ``.csv``,
-        ``.parquet`` or ``.xlsx`` (a workbook, up to 1,048,575 points). It is written when all points are done. Until then finished chunks are stored in the folder
-        ``OUT.partial`` beside it. After an interruption or a kill, the same call continues without recomputing finished
+        ``.parquet`` or ``.xlsx`` (a workbook, up to 1,048,575 points). It is written when all points are done. Until then
+        finished chunks are stored in the folder ``OUT.partial`` beside it. After an interruption or a kill, the same call continues without recomputing finished
         chunks.
     executor : concurrent.futures.Executor, optional
         Executor for the chunks, such as a ``ProcessPoolExecutor``, or ``client.get_executor()`` of a Dask cluster; threads
