@@ -277,7 +277,7 @@ def plot_system(system: System, ax: Axes | None = None) -> Axes:
     """Draw the system at rest, true to scale along the axis.
 
     returns: The drawing: joints (small dots), bodies (larger dots are heavier), rods as bars from end to end, and
-        names of up to 40 links. Inverted links are thick, wheels are seen edge-on, bodies that float are hollow, and a
+        names of up to 12 links. Inverted links are thick, wheels are seen edge-on, bodies that float are hollow, and a
         cord is thicker where it is heavier. Links whose names have a word such as ``bell`` or ``man`` are drawn as such.
 
     >>> rc.Chain(mass=[1.0, 2.0], length=[0.5, 0.3]).plot().get_ylabel()

@@ -105,9 +105,10 @@ def plot_swing(
 ) -> Axes:
     """Draw the system at the given times, the offsets of pins against time, or their paths seen from above.
 
-    kind: ``"shapes"``: shapes from dark (early) to light (late), with enlarged offsets, at most five; the usual one
-        of a swing in a plane. ``"time"``: offsets against time, with momentum those along y dashed; the usual one of a
-        support that is moved, which is grey. ``"path"``: paths seen from above; the usual one, and only, with momentum.
+    kind: ``"shapes"``: shapes from dark (early) to light (late), with enlarged offsets, at most five; the usual one of
+        a swing in a plane, not with momentum. ``"time"``: offsets against time, with momentum those along y dashed; the
+        usual one of a support that is moved, which is grey. ``"path"``: paths seen from above; with momentum only, and
+        then the usual one.
     pins: For ``"time"`` and ``"path"``: numbers of the pins, 0 for the free end; for a cord, indices in
         `arc_length`.
     raises: If `kind` is another word, or there is no such pin.

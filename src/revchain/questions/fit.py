@@ -70,9 +70,9 @@ def fit(
     -------
     Fitted
         The new system; the values with standard uncertainties, covariance and correlation; residuals and chi-square; which
-        measurement disagrees with the others; the data that the measurements do not determine. Cost: 5 ms,
-        or 5 to 10 times that of `Modes.sensitivity` if this is more; for data of cords and held systems up to 60 times
-        that of the modes.
+        measurement disagrees with the others; the data that the measurements do not determine. Cost: 5 ms
+        for a small chain, 5 to 20 times that of `Modes.sensitivity` for a long one; 30 to 60 times that of the modes for
+        cords and held systems.
 
     Raises
     ------

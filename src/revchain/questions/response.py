@@ -83,7 +83,7 @@ def response(
     ValueError
         If `system` is a `Cord` or a `Held`; if not exactly one of `conical_height` and `angular_speed` is given; if more
         than one of `support_radius`, `acceleration` and `force` is given, or a force on a firm support; if a number is not
-        positive and finite or differs from the chain's by a factor of 1e75; if there is no such pin.
+        positive and finite or differs from the chain's by a factor of 1e76; if there is no such pin.
 
     Notes
     -----

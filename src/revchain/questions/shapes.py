@@ -104,8 +104,8 @@ def steady_shapes(
         line between the ends (with springs: between their rest positions). ``missing`` lists the half waves without a
         shape. Held chains: ``complete`` is true if it is proved that there are no other shapes with these numbers of
         half waves; else ``undecided`` gives the inclinations of the lowest link at which others may start. The proof
-        usually succeeds for one half wave of 3 to 9 links with ``l <= a`` and mass at every pin. With 20 links and more
-        it often leaves a few hundredths of a radian; for more half waves it seldom succeeds. If both ends are off the
+        usually succeeds for one half wave of up to 9 links with ``l <= a`` and mass at every pin; with more links or half
+        waves it often leaves a part undecided. If both ends are off the
         axis, a shape need not lie in a plane. Only shapes in the plane of the ends are searched for, and ``complete``
         is false. Held cords: ``complete`` is true for a span without gravity, which has one shape for each number of
         half waves.
@@ -134,7 +134,7 @@ def steady_shapes(
 
     Held systems. Accuracy: inclinations of chains are correctly rounded to within 1e-20, with a bound that is usually
     proved; positions on cords are within 1e-13 of the length. Completeness: Krawczyk's test on the pull along the
-    lowest link and its inclination, 0.05 to 0.5 s.
+    lowest link and its inclination, at most about 0.2 s for one half wave.
 
     Examples
     --------

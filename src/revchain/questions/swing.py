@@ -91,7 +91,7 @@ def swing(
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
     ValueError
         If `system` is a `Held`, or a `Cord` whose support is moved; if a number is not finite, a start has another length
-        or moves a firm support, `count` exceeds the number of modes, or weights differ by more than a factor of 1e123; if a function jumps, or `arc_length`
+        or moves a firm support, `count` exceeds the number of modes, or weights differ by a factor of 2e123 or more; if a function jumps, or `arc_length`
         comes with a chain. For a rig: if its straight position is unstable (the message gives the growth rate), if its
         support is carried round (use `response`), if the fluid turns, if it has momentum and pins without inertia, or if a
         start is complex without momentum. With dashpots, springs at pins, a trolley or a moving support: if a time is

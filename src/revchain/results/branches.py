@@ -149,8 +149,8 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         "Reason why the branch ends. ``'height'``: the given conical height is reached. ``'closed'``: the branch is "
         "back at its start. ``'vertical'``: it is back at the straight chain. ``'budget'``: `max_points` (of a held "
         "system 3000 steps) are done. ``'stuck'``: no step passed every check. ``'slow'``: it approaches rest. "
-        "``'slack'``: a link becomes slack, or with flywheels horizontal, or turns over (of a held system the last "
-        "speed is within a measured 2e-5, relative). ``'loose'``: the spring at the support no longer holds the "
+        "``'slack'``: a link becomes slack, or with flywheels horizontal, or turns over (of a held system near the last "
+        "speed). ``'loose'``: the spring at the support no longer holds the "
         "chain. ``'folded'``: a held cord hangs folded along the axis. ``'speed'``: the greatest speed is reached "
         "again. ``'rest'``: with ends off the axis the held chain hangs as at rest, at a conical height of 10,000 "
         "lengths.",

@@ -81,8 +81,7 @@ class Stability(
         "``2 N - 4``. The links are rods without inertia about their own axes. A pin without mass reduces the number: "
         "the two links that meet there stay in line. Each end that yields adds 4 in the free frame, 2 in the driven "
         "frame. An end carried round adds 2 in the free frame, because no rotation is left out. For a cord the "
-        "slowest of infinitely many, up to the first on which two discretisations do not agree to 1e-6; most are "
-        "correct to 1e-9.",
+        "slowest of infinitely many, up to the first on which two discretisations do not agree to 1e-6.",
         heading="growth (n)",
         column="value",
         shown=lambda s: s.exponents.real,
@@ -113,11 +112,13 @@ class Stability(
         heading="with drag in air",
     )
     growth_rate: Field[float] = Field(
-        "Largest real part of the exponents, in units of the turning speed; NaN in a rotating fluid, where it is "
-        "unknown.",
+        "Largest real part of the exponents, in units of the turning speed; in a rotating fluid 0 for a minimum, NaN "
+        "for any other shape.",
         fact=True,
     )
-    margin: Field[float] = Field("The largest `exponent_error`: errors cause no growth rate above it.", fact=True)
+    margin: Field[float] = Field(
+        "Growth rate up to which the errors leave the verdict open: the largest `exponent_error`, or another bound for cords.", fact=True
+    )
     negative_directions: Field[int] = Field(
         "Number of negative directions of the energy in the turning frame, at constant angular momentum in the free "
         "frame.",
