@@ -205,7 +205,8 @@ class SkippingRope(Solved, row="rope", title="SkippingRope: {self._waves}"):
     tension: Tension in the middle of a half wave, as the length of rope of equal weight
     gravity: Acceleration of gravity, which only relates weight to mass (standard gravity in m/s^2 if left out)
     raises: If a number is not positive and finite, if too few or too many are given, or if no rope has them: the length
-        does not exceed the span, the sag is not below half the length of a half wave, or no rope bends so at this speed and tension.
+        does not exceed the span, the sag is not below half the length of a half wave, or no rope bends so at this speed
+        and tension.
     notes: Cost: 20 microseconds, and for each point 0.06 by `at` or 0.6 by `at_arc`.
 
     >>> rope = rc.SkippingRope(span=2.0, length=3.0, angular_speed=12.0)

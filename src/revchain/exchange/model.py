@@ -482,7 +482,7 @@ class Model(Compiled):
         return (above is not None and above.inverted) != (cosine < 0)
 
     def _way(self, part: _Part, axis: Floats, is_plane: bool) -> tuple[str, Floats | None]:
-        """The way in which a link with this axis in space turns about its pin, and the direction of its hinge if it has one."""
+        """The way in which a link with this axis turns about its pin, and the direction of its hinge if it has one."""
         kinds, axes = {int(self.model.jnt_type[j]) for j in part.joints}, self.at.xaxis[part.joints]
         if not kinds <= {self.hinge, self.ball}:
             return "none", None

@@ -119,9 +119,10 @@ def plot_branches(
     is no minimum but spectrally stable, dashed where it is unstable, dotted where the errors of the exponents leave the
     stability open. Hollow diamonds are folds, discs are pitchforks, where a branch and its mirror image leave the
     vertical; their speeds are above the frame, unless another one is so close that the numbers would overlap. Crosses are
-    other changes of stability, such as a Hamiltonian Hopf bifurcation; `Branches.stability_windows` says what each is. The line changes at the ends of these windows, also between two points.
-    Above about 19,000 (points times links squared) fewer places are examined, above 150,000 only the points and their
-    neighbours, so that a short window can be missed. With ``hanging_only=False`` colours show the posture, up to 7 of them.
+    other changes of stability, such as a Hamiltonian Hopf bifurcation; `Branches.stability_windows` says what each is.
+    The line changes at the ends of these windows, also between two points. Above about 19,000 (points times links
+    squared) fewer places are examined, above 150,000 only the points and their neighbours, so that a short window can
+    be missed. With ``hanging_only=False`` colours show the posture, up to 7 of them.
 
     quantity: Quantity to draw, as in `Branch.plot`.
     stability: Whether to draw the stability; if False, all lines are solid. If left out, it is drawn for chains, rigs and

@@ -32,7 +32,8 @@ def plot_response(
     """Draw the distances of pins from the axis against the speed, on a logarithmic scale.
 
     A line is dashed if the pin is on the side opposite to the support (with dashpots: behind by more than a quarter of a
-    turn); vertical lines mark the resonances. A response at one speed is drawn as a shape: the offsets of the pins against their depths.
+    turn); vertical lines mark the resonances. A response at one speed is drawn as a shape: the offsets of the pins
+    against their depths.
 
     pins: Numbers of the pins to draw. If left out: the lowest and up to three others, evenly spaced; all at a
         single speed.

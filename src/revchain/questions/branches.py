@@ -190,10 +190,10 @@ def branches(
     ``consistent`` is true if every list is proved complete and each of its shapes matches exactly one branch.
 
     An isolated branch that is a closed loop can begin and end between two of the 16 speeds, so that no list contains it.
-    Interval arithmetic therefore splits the plane of conical height and tangent of the lowest link until each part has no fold, or has all its shapes on one curve through a
-    known branch. Loops found in this way are followed. ``complete`` is true if this succeeds for every part; it is
-    false if links could hang at several inclinations. The proof relies on `branch`, whose steps are checked, not
-    proved.
+    Interval arithmetic therefore splits the plane of conical height and tangent of the lowest link until each part has
+    no fold, or has all its shapes on one curve through a known branch. Loops found in this way are followed.
+    ``complete`` is true if this succeeds for every part; it is false if links could hang at several inclinations. The
+    proof relies on `branch`, whose steps are checked, not proved.
 
     For rigs (on springs, on an arm, with flywheels, in fluids) the proof needs all links in tension at every speed up
     to the given one. Below the first critical speed such a rig has exactly one shape if its support is off the axis,

@@ -89,9 +89,10 @@ def fit(
     -----
     Method: trust-region least squares (`scipy.optimize.least_squares`) in the logarithms of the data, or in fractions of
     their size for momenta, spins and centroids, which may have either sign. Derivatives are those of `Modes.sensitivity`;
-    for cords, held systems, rigs with dashpots and masses of wheels they are differences of fourth order. The values are within a
-    millionth of their standard uncertainties of a local minimum of the sum of squares. It is not proved that there is no
-    lower minimum far from the start. Uncertainties are to first order: they assume that speeds are linear in the data.
+    for cords, held systems, rigs with dashpots and masses of wheels they are differences of fourth order. The values
+    are within a millionth of their standard uncertainties of a local minimum of the sum of squares. It is not proved
+    that there is no lower minimum far from the start. Uncertainties are to first order: they assume that speeds are
+    linear in the data.
 
     Which measurement disagrees: the leverage of a measurement is its element h on the diagonal of the hat matrix, the part
     of a change of the measured value by which the computed one follows. Its residual has the standard deviation
@@ -415,7 +416,7 @@ def _varied(vary: Any) -> tuple[list[Any], list[Any]]:
 
 
 def _measurements(measured: Any) -> tuple[Whole, Floats, Floats | None, Any]:
-    """Mode numbers, speeds (negative for backward modes), their standard uncertainties (None if not given), which are periods."""
+    """Mode numbers, speeds (negative for backward modes), standard uncertainties or None, and which are periods."""
     if not isinstance(measured, Mapping) or not measured:
         such = f"a dictionary of speeds by mode number such as {_FORM}"
         raise ValueError(f"{_CALLER}: measured must be {such}, got {shown(measured)}")

@@ -74,9 +74,9 @@ def modes(
         references for small chains. Any other name that `explain` lists selects that method at any cost.
     precision : {"double", "extended", "double-double"}
         Arithmetic of the result. ``"extended"``: the results are numpy's longdouble, with a significand of 64 bits on
-        x86-64; on some platforms it equals double. ``"double-double"``: twice the digits of double; the height is the sum of two
-        float64 arrays, ``conical_height + conical_height_low``, `error_bound` bounds the error of that sum (3e-29 for one
-        link, 1e-24 for 2000), and shapes are float64.
+        x86-64; on some platforms it equals double. ``"double-double"``: twice the digits of double; the height is the
+        sum of two float64 arrays, ``conical_height + conical_height_low``, `error_bound` bounds the error of that sum
+        (3e-29 for one link, 1e-24 for 2000), and shapes are float64.
     certify : bool
         Whether to return, for each height of a chain (also of a held one) or a rig, the interval that contains it and
         the counts that prove it.
@@ -95,9 +95,9 @@ def modes(
     ValueError
         If the requested modes do not exist or are specified in two ways, a window is not a pair (low, high) with low
         below high, `rtol` is NaN or negative, or `method` or `precision` is unknown; if a method or another
-        precision than double is asked of a system other than a chain, or `certify` of a cord; if a rig has more than 20,000 links and its speeds may be complex (inverted links or driven
-        wheels together with momentum, floats in rotating fluid); if a held system is not under a tension that exceeds
-        its weight.
+        precision than double is asked of a system other than a chain, or `certify` of a cord; if a rig has more than
+        20,000 links and its speeds may be complex (inverted links or driven wheels together with momentum, floats in
+        rotating fluid); if a held system is not under a tension that exceeds its weight.
     TypeError
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
 

@@ -59,8 +59,8 @@ def steady_shapes(
     budget : int, optional
         Largest number of links to visit while the range of inclinations of the lowest link is split. Chains and rigs:
         3,000,000 if left out, at about half a microsecond each; with 0 or less the list is empty and not complete. Held
-        chains: 300,000 if left out, at about a microsecond each; with 0 completeness is not proved. Cords for which no theorem counts the shapes: number of offsets of the free end to
-        examine, 200 if left out.
+        chains: 300,000 if left out, at about a microsecond each; with 0 completeness is not proved. Cords for which no
+        theorem counts the shapes: number of offsets of the free end to examine, 200 if left out.
     hanging_only : bool, optional
         Chains and rigs: whether to leave out shapes in which a link is inverted, that is, at more than a right angle to
         the downward vertical. For a rig: whether to leave out shapes with other links inverted than those of the rig.

@@ -51,8 +51,8 @@ def swing(
     The support may be moved: a crane that brakes, a ship that rolls. Dashpots damp the motion.
 
     The motion is in one plane; without dashpots its natural angular frequencies are the whirl speeds of `modes`. Motions
-    in the two horizontal directions are independent: call the function for each. Flywheels with momentum turn the plane of the
-    swing; offsets and velocities of such a `Rig` are complex, x + i y.
+    in the two horizontal directions are independent: call the function for each. Flywheels with momentum turn the plane
+    of the swing; offsets and velocities of such a `Rig` are complex, x + i y.
 
     Parameters
     ----------
@@ -63,8 +63,8 @@ def swing(
         moving support.
     offset : array_like, shape (N + 1,) or (N,), optional
         Offsets of the pins at time 0, m, free end first; on the axis if left out. The last one, of the support, may be
-        left out; it must be 0 unless a `Rig` has a support that yields. For a cord: a continuous function of the distance from the free end, or
-        numbers at `arc_length` with straight lines between them.
+        left out; it must be 0 unless a `Rig` has a support that yields. For a cord: a continuous function of the
+        distance from the free end, or numbers at `arc_length` with straight lines between them.
     velocity : array_like, shape (N + 1,) or (N,), optional
         Velocities of the pins at time 0, m/s, in the same form; at rest if left out.
     support : SupportMotion, optional
@@ -91,12 +91,12 @@ def swing(
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
     ValueError
         If `system` is a `Held`, or a `Cord` whose support is moved; if a number is not finite, a start has another length
-        or moves a firm support, `count` exceeds the number of modes, or weights differ by a factor of 2e123 or more; if a function jumps, or `arc_length`
-        comes with a chain. For a rig: if its straight position is unstable (the message gives the growth rate), if its
-        support is carried round (use `response`), if the fluid turns, if it has momentum and pins without inertia, or if a
-        start is complex without momentum. With dashpots, springs at pins, a trolley or a moving support: if a time is
-        negative, `count` is given, a force acts on a firm support, the motion exceeds the largest double, or there are more
-        than 1000 links.
+        or moves a firm support, `count` exceeds the number of modes, or weights differ by a factor of 2e123 or more; if
+        a function jumps, or `arc_length` comes with a chain. For a rig: if its straight position is unstable (the
+        message gives the growth rate), if its support is carried round (use `response`), if the fluid turns, if it has
+        momentum and pins without inertia, or if a start is complex without momentum. With dashpots, springs at pins, a
+        trolley or a moving support: if a time is negative, `count` is given, a force acts on a firm support, the motion
+        exceeds the largest double, or there are more than 1000 links.
 
     Notes
     -----

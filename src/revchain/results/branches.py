@@ -472,7 +472,7 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         return "zero exponent"
 
     def _judged(self, frame: str, samples: int = 1) -> tuple[tuple[float, float, str], ...]:
-        """Parts of the branch with one verdict, found with `samples` for each point: ends, counted in points, and verdict."""
+        """Parts of the branch with one verdict, found with `samples` for each point: ends in points, and verdict."""
         if self.system._is_cord:
             what = "is for links, as each verdict of a cord takes long; ask shapes: branch.shape(-1).stability()"
             raise UnavailableError(f"revchain.Branch.verdict: {what}")

@@ -169,7 +169,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
 
     Heights and bounds are computed at once. Shapes, nodes, residuals and sensitivities are computed when they are first
     read, then stored; shapes, nodes and residuals also when the result is saved. Arrays are read-only. A window may
-    contain no modes (k = 0). ``modes[0]`` is a row: one number or array of each field. For a cord held straight at both ends, distances start at its lower end.
+    contain no modes (k = 0). ``modes[0]`` is a row: one number or array of each field. For a cord held straight at both
+    ends, distances start at its lower end.
 
     Notes
     -----
@@ -497,8 +498,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
             Standard deviations of the data of a cord: of its tip, of the exponent of its density, of the tension that holds
             it.
         worst : bool, optional
-            Whether to find the proved extremes of the speeds as well, in ``.worst``. The given numbers are then half-widths of
-            tolerances: each datum lies anywhere between its value minus and plus that much.
+            Whether to find the proved extremes of the speeds as well, in ``.worst``. The given numbers are then
+            half-widths of tolerances: each datum lies anywhere between its value minus and plus that much.
 
         Returns
         -------
@@ -508,10 +509,11 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         Raises
         ------
         ValueError
-            If a deviation is negative or not finite, has another shape, or a covariance is not symmetric; if the system has no
-            such datum, or was given by another; if a path is unknown, or two data are the same number; if a chain is held at
-            both ends, or a rig has springs at pins, dashpots or linear drag. With ``worst=True`` also if a half-width is as large as its datum, or the system has flywheels, a
-            fluid, standing links or more than 100 links, or is a cord with point masses or a bob, for which there is no proof.
+            If a deviation is negative or not finite, has another shape, or a covariance is not symmetric; if the system
+            has no such datum, or was given by another; if a path is unknown, or two data are the same number; if a
+            chain is held at both ends, or a rig has springs at pins, dashpots or linear drag. With ``worst=True`` also
+            if a half-width is as large as its datum, or the system has flywheels, a fluid, standing links or more than
+            100 links, or is a cord with point masses or a bob, for which there is no proof.
 
         Notes
         -----
@@ -519,11 +521,11 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         compared with its datum, sample instead. See `Sensitivity` for the data that are constant while one changes. Cost:
         that of the sensitivities, 0.6 microseconds for each link and mode.
 
-        The extremes of ``worst=True`` are to all orders, and rounding is included. They are exact, reached at a corner of the box,
-        for most tolerances of masses, lengths in proportion, radii of gyration and of the support; for independent lengths and
-        centroids of bodies they may be wider than the speeds reached: see `WorstCase.gap`. Cost for each mode: 10
-        milliseconds for ten links, 0.6 seconds for a hundred; more where the box must be divided. Method:
-        Loewner bounds of the two quadratic forms, and Courant and Fischer's theorem at a corner of the box.
+        The extremes of ``worst=True`` are to all orders, and rounding is included. They are exact, reached at a corner
+        of the box, for most tolerances of masses, lengths in proportion, radii of gyration and of the support; for
+        independent lengths and centroids of bodies they may be wider than the speeds reached: see `WorstCase.gap`. Cost
+        for each mode: 10 milliseconds for ten links, 0.6 seconds for a hundred; more where the box must be divided.
+        Method: Loewner bounds of the two quadratic forms, and Courant and Fischer's theorem at a corner of the box.
 
         Examples
         --------
@@ -738,8 +740,9 @@ def _speed_bound(error: Floats) -> Floats:
 def speed_bound_of_exponents(exponent: Complex, error: Floats, turns: bool) -> Floats:
     """Bound of the relative error of the imaginary parts of exponents whose relative error is at most `error`.
 
-    The error of an imaginary part is at most ``error * abs(exponent)``. An exponent on the real axis that is proved apart from
-    all others is exactly real, because its conjugate is an exponent too; not with wheels (`turns`), where it is none.
+    The error of an imaginary part is at most ``error * abs(exponent)``. An exponent on the real axis that is proved
+    apart from all others is exactly real, because its conjugate is an exponent too; not with wheels (`turns`), where it
+    is none.
     """
     speed = np.abs(exponent.imag)
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -281,7 +281,7 @@ def in_columns(sheet: Sheet, most: int = MOST_COLUMNS) -> list[Column]:
 
 
 def as_csv(sheet: Sheet) -> str:
-    """The table as CSV: one line for each row, with all digits, and a column for each pin; other arrays separated by blanks."""
+    """The table as CSV: one line for each row, with all digits; a column for each pin; other arrays separated by blanks."""
     import csv
     import io
 

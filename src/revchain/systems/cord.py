@@ -216,7 +216,7 @@ class Cord(System):
 
     @property
     def weights(self) -> dict[float, float]:
-        """Weights of the point masses on the cord, by their distances from the free end; an AttributeError if given by mass."""
+        """Weights of the point masses on the cord by distance from the free end; an AttributeError if given by mass."""
         return dict(self._measured("weights", self._particles))
 
     @property

@@ -47,8 +47,8 @@ class SupportMotion(_Fitting):
     Notes
     -----
     A support with a spring is moved at the far end of the spring, as the ground moves under a machine. Any other, a free
-    trolley too, is moved itself. Source: C. de Boor, A Practical Guide to Splines (1978), chapter IV: complete splines, or if
-    the support does not rest at the ends not-a-knot splines.
+    trolley too, is moved itself. Source: C. de Boor, A Practical Guide to Splines (1978), chapter IV: complete splines,
+    or if the support does not rest at the ends not-a-knot splines.
 
     Examples
     --------
