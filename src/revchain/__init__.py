@@ -14,12 +14,13 @@ Questions
     conical_heights for many chains at once
 Results
     Modes, SteadyShapes, SteadyShape, Branches, Branch,
-    Stability, ForceDiagram, Response, Swing, Campbell, DragShape, Tuned, Fitted, Explanation, Sensitivity, Uncertainty, WorstCase;
-    ``load`` reads the files that their method ``save`` wrote. Variants of these, and classes of their fields, are in the reference.
+    Stability, ForceDiagram, Response, Swing, Campbell, DragShape, Tuned, Fitted, Explanation, Sensitivity, Uncertainty,
+    WorstCase; ``load`` reads the files that their method ``save`` wrote. Variants of these, and classes of their fields,
+    are in the reference.
 Closed forms
     conical_pendulum, plummet, two_links, elliptic, hoop, bell_and_clapper, funicular_polygon, transverse_modes,
-    recurrence_matrices; BellAndClapper, BufferImpact, GovernorMotion, SleeveGovernor, GyrostaticString, SkippingRope, TortuousRope,
-    FunicularPolygon, TransverseModes
+    recurrence_matrices; BellAndClapper, BufferImpact, GovernorMotion, SleeveGovernor, GyrostaticString, SkippingRope,
+    TortuousRope, FunicularPolygon, TransverseModes
 Files
     Scene, load_scene, Study, load_study, sweep, SceneError; of multibody engines to_mjcf, from_mjcf, to_urdf,
     from_urdf, ModelWarning

@@ -14,6 +14,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -28,6 +29,7 @@ from revchain.cli import MEANING, ExitCode
 from revchain.cli.frame import USE
 from revchain.scenes import answer as _answer
 from revchain.scenes.scene import json_schema
+from revchain.scenes.tables import TABLES, fields_of
 
 WATCH = """
 title = "Watch chain"
@@ -597,6 +599,13 @@ def test_the_example_in_the_help_works(run, repository, name):
 
 def test_every_command_has_an_example():
     assert [command.name or command.callback.__name__ for command in _cli.app.registered_commands] == list(USE)
+
+
+def test_every_option_of_a_question_has_a_text():
+    for question, table in TABLES.items():
+        for field in fields_of(table):
+            (option,) = (part for part in get_args(_ask._option(field, False)) if hasattr(part, "help"))
+            assert option.help, (question, field.name)
 
 
 def test_help_tells_the_exit_codes(run):

@@ -226,6 +226,13 @@ def test_forces_come_out_in_newtons_of_masses():
         np.testing.assert_allclose(*(shape(each).tension for each in pair), rtol=1e-13)
 
 
+@pytest.mark.parametrize("name", ["effective_energy", "moment_of_inertia"])
+def test_a_number_that_shapes_of_cords_do_not_have(name):
+    shape = rc.steady_shapes(rc.Cord(1.0), angular_speed=9.0)[0]
+    with pytest.raises(AttributeError, match=f"revchain.SteadyShape.{name}: a Cord does not have it"):
+        getattr(shape, name)
+
+
 @pytest.mark.parametrize("g", [9.80665, 1.62, 24.8])
 def test_rigs_by_mass_and_by_weight(g):
     def rig(name, unit):

@@ -95,6 +95,13 @@ def test_only_the_page_made_from_headers_is_left_out(claims, tree):
     assert [each.text for each in missing] == ["The tutorial takes 3 seconds."]
 
 
+def test_what_decorators_write_into_docstrings_is_found(claims):
+    text = '@described("3 ulp", "section 1", "2 ms")\ndef f():\n    """Return."""\n\n@closed_form(g, "2 ulp", "x", cost="1 s")\ndef g(): ...\n'
+    found = [(each.name, each.text) for each in claims["of_module"](Path("m.py"), text)]
+    written = [("f", "Accuracy: 3 ulp."), ("f", "Cost: 2 ms."), ("g", "Accuracy: 2 ulp."), ("g", "Cost: 1 s.")]
+    assert [each for each in found if each[1] and each[1] != "Return."] == written
+
+
 def test_a_wrong_number_and_a_sentence_that_is_gone_are_found(claims, tree):
     entry = '[[claim]]\nfile = "docs/page.md"\ntext = "takes 3 seconds"\nequals = {"3" = "1 + 1"}\n'
     root = tree("It takes 3 seconds.\n", entry)

@@ -22,7 +22,7 @@ class ExitCode(IntEnum):
 
 MEANING = {
     ExitCode.OK: "success",
-    ExitCode.TOLERANCE_NOT_MET: "the answer does not meet the requested tolerance",
+    ExitCode.TOLERANCE_NOT_MET: "an answer is incomplete, or not within its tolerance",
     ExitCode.WRONG_USAGE: "wrong usage, or a package is missing",
     ExitCode.SCENE_INVALID: "a scene or a model is invalid",
     ExitCode.OUTPUT_FAILED: "an output cannot be written",
@@ -46,10 +46,6 @@ def cmake_prefix() -> str:
     ------
     FileNotFoundError
         This installation has no headers, for example because they are in a package of their own.
-
-    Notes
-    -----
-    Accuracy: not applicable. Cost: 20 microseconds.
 
     Examples
     --------

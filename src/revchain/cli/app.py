@@ -53,7 +53,7 @@ def run(arguments: list[str] | None = None) -> int:
 
 
 def _instead(error: Any) -> str:
-    """What to write instead of an option that does not exist: a speed, or a number of the scene."""
+    """The hint for an option that does not exist: a speed, or a key of the scene."""
     if re.match(r"No such command '(fit|tune)'", error.format_message()):
         return "; fits and tuning are done in Python, by revchain.fit and revchain.tune"
     wrong = getattr(error, "option_name", "").lstrip("-").replace("-", "_")

@@ -163,7 +163,7 @@ def _command(question: str, table: type[Table], summary: str) -> None:
 
 def _option(field: structs.FieldInfo, of_modes: bool) -> Any:
     """The option of a command that stands for a key of a table."""
-    help_text = next(part.description for part in get_args(field.type) if isinstance(part, Meta)) or ""
+    help_text = next(part.description for part in get_args(field.type) if isinstance(part, Meta) and part.description)
     if of_modes and field.name in EXCLUSIVE:
         help_text += " The count, first and windows of the scene do not apply."
     help_text = help_text.replace("[", "\\[")

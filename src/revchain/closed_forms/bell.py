@@ -155,7 +155,7 @@ class BellAndClapper(
         apart = abs(float(self.inclination_ratio[0]) - 1)
         return gap / apart if apart else math.inf
 
-    @described("within `error_estimate`, below 1e-11 for 99 of 100 random bells; Taylor series of order 24", "", "1 ms")
+    @described("within `error_estimate`, below 1e-11 for 99 of 100 random bells; Taylor series of order 24", "", "0.25 ms")
     def first_strike(
         self, clearance: float, *, amplitude: float | None = None, clapper_angle: float | None = None
     ) -> Strike:

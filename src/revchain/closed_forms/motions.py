@@ -53,9 +53,9 @@ class BufferImpact(Solved):
     speed: Speed of both carriages towards the buffer at time 0, when the front one touches it
     raises: If a number is not positive and finite, or there are more than 100,000 blows.
     notes: Accuracy, measured against integration, if no blow only grazes the buffer: positions to 1e-13 of speed times
-        time, speeds to 1e-13 of the speed and of acceleration times time, times to 1e-13 of the last time. Cost: 2
-        microseconds for each blow, 0.1 for a state. Carriages of about equal mass give one to three blows; a heavy one
-        behind a light one gives hundreds.
+        time, speeds to 1e-13 of the speed and of acceleration times time, times to 1e-13 of the last time. Cost: 10
+        microseconds, 1 more for each blow, and 0.05 for each state. Carriages of about equal mass give one to three
+        blows; a rear carriage that is 10,000 times as heavy can give a thousand.
 
     >>> rc.BufferImpact(front_mass=1, rear_mass=1, buffer_stiffness=4, coupling_stiffness=0.5, speed=1)
     BufferImpact: 2 blows
@@ -104,7 +104,7 @@ class GovernorState(NamedTuple):
     angle_rate: FloatOrArray
 
 
-@described(cost="2 microseconds, and 0.2 for each time", source="section 7 (1)-(13)")
+@described(cost="10 microseconds, and 0.1 for each time", source="section 7 (1)-(13)")
 class GovernorMotion(Solved, row="motion", title="GovernorMotion: {self.regime}"):
     """The motion of a link hinged on a turning axis.
 
@@ -112,7 +112,7 @@ class GovernorMotion(Solved, row="motion", title="GovernorMotion: {self.regime}"
     pendulum_length: Length of the equivalent simple pendulum about the hinge
     gravity: Acceleration of gravity; negative for an inverted axis.
     raises: If a number is not finite, `pendulum_length` is not positive, or `axial_inertia` is not from 0 to 1; if
-        numbers differ by a factor of 1e150 or more, so that no digit of the motion is correct.
+        numbers are so far apart, by a factor of 1e150 or more, that no digit of the motion would be correct.
     notes: Accuracy, measured against integration in quadruple precision: angles to 1e-13 of the greatest angle and of
         ``t`` times the greatest rate; rates to 1e-13 of the greatest rate and of ``t`` times the greatest
         acceleration. After 1e13 periods no digit is correct. Close to a motion that never returns, the rounding of
@@ -205,8 +205,9 @@ class SkippingRope(Solved, row="rope", title="SkippingRope: {self._waves}"):
     tension: Tension in the middle of a half wave, as the length of rope of equal weight
     gravity: Acceleration of gravity, which only relates weight to mass (standard gravity in m/s^2 if left out)
     raises: If a number is not positive and finite, if too few or too many are given, or if no rope has them: the length
-        does not exceed the span, the sag is not below half the length, or the rope is too slow or too tight to bend.
-    notes: Cost: 20 microseconds, and for each point 0.2 by `at` or 10 by `at_arc`.
+        does not exceed the span, the sag is not below half the length of a half wave, or no rope bends so at this speed
+        and tension.
+    notes: Cost: 20 microseconds, and for each point 0.06 by `at` or 0.6 by `at_arc`.
 
     >>> rope = rc.SkippingRope(span=2.0, length=3.0, angular_speed=12.0)
     >>> round(rope.sag, 6), round(rope.tension_in_the_middle, 6)
@@ -309,7 +310,7 @@ class SkippingRope(Solved, row="rope", title="SkippingRope: {self._waves}"):
 
 @described(
     "1e-14 relative; for the angle, 1e-14 of its size plus 1", "section 5, text after (6)",
-    "2 microseconds, and 1 for each point",
+    "7 microseconds, and 0.25 for each point",
 )
 class TortuousRope(
     Solved, row="rope", title="TortuousRope: {self._given[angular_speed]:g} rad/s, tension {self._given[tension]:g}"

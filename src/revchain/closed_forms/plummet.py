@@ -149,7 +149,6 @@ def carried_response(length: ArrayLike, height: ArrayLike) -> FloatOrArray:
     _core.carried_inclinations,
     "4 ulp; where two roots nearly meet, times ``1 / (1 - (cos at which two meet / cos of the root)**3)``",
     "section 1",
-    cost="1 microsecond for each number",
     made=_inclinations,
 )
 def carried_inclinations(length: ArrayLike, height: ArrayLike, radius: ArrayLike) -> Floats | list[Floats]:

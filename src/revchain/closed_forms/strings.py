@@ -135,7 +135,7 @@ class FunicularPolygon(Result):
 
 @described(
     "half an ulp of the heights, plus 1e-28 of the drop below the chord", "section 3",
-    "O(n); 40 microseconds for 1000 weights",
+    "O(n)",
 )
 def funicular_polygon(
     weight: ArrayLike, position: ArrayLike, horizontal_tension: float, *, first_height: float = 0.0,
@@ -158,7 +158,7 @@ def funicular_polygon(
     return FunicularPolygon._made(_core.funicular_polygon(weights, at, **given), weight=weights.copy())
 
 
-@described("2 ulp of the conical heights", "section 3", "O(n**2); 14 ms for 1000 weights")
+@described("2 ulp of the conical heights", "section 3", "O(n**2); 20 ms for 1000 weights")
 def transverse_modes(
     weight: ArrayLike, position: ArrayLike, tension: float, *, gravity: float = STANDARD_GRAVITY
 ) -> TransverseModes:

@@ -248,7 +248,7 @@ def seconds_lost_per_day(deflection: ArrayLike, centroid: ArrayLike, radius_of_g
     _core.two_plummets_shapes,
     "inclinations 4 ulp for the data as given, also close to a fold and to the vertical",
     "section 2 (4)",
-    cost="10 microseconds for each shape",
+    cost="20 microseconds for each shape",
     made=_shapes,
 )
 def two_plummets_shapes(
@@ -260,7 +260,7 @@ def two_plummets_shapes(
         one with the lower plummet at a positive offset. The list is proved complete. One shape has both plummets on
         one side, if `height` is below the first of `two_plummets`; one or three have them on opposite sides, if it is
         below the second.
-    raises: If a length divided by `height` exceeds 1e101.
+    raises: If a length divided by `height` exceeds 1.1e102.
     notes: A relative error of the data changes the tangents by up to ``x / (x - height)`` times as much, where `x` is
         the conical height at which the shape leaves the vertical; where two shapes meet, by its square root.
 
@@ -276,7 +276,7 @@ def two_plummets_shapes(
 
 @closed_form(
     _core.link_on_thread_shapes, "that of `two_plummets_shapes`", "section 6 (10)",
-    cost="10 microseconds for each shape", made=_shapes,
+    cost="O(1)", made=_shapes,
 )
 def link_on_thread_shapes(thread: float, centroid: float, radius_of_gyration: float, height: float) -> list[PairShape]:
     """Return all hanging steady shapes of a link on a thread at a speed, at any inclination.
@@ -290,7 +290,7 @@ def link_on_thread_shapes(thread: float, centroid: float, radius_of_gyration: fl
 
 @closed_form(
     _core.standing_plummet_shape, "that of `two_plummets_shapes`", "section 2 (8)",
-    cost="10 microseconds", made=_only_shape,
+    cost="O(1)", made=_only_shape,
 )
 def standing_plummet_shape(
     *, standing_weight: float, rod: float, hung_weight: float, thread: float, height: float
@@ -310,7 +310,7 @@ def standing_plummet_shape(
 
 @closed_form(
     _core.standing_link_shape, "that of `two_plummets_shapes`", "section 6 (12), with the secants of (10)",
-    cost="10 microseconds", made=_only_shape,
+    cost="O(1)", made=_only_shape,
 )
 def standing_link_shape(thread: float, centroid: float, radius_of_gyration: float, height: float) -> PairShape | None:
     """Return the steady shape in which a link stands on its lowest point, at any inclination.
@@ -346,7 +346,7 @@ def jointed_links(
 
 @closed_form(
     _core.jointed_links_shapes, "8 ulp where no two shapes meet", "section 8 (14) with its secants",
-    cost="10 microseconds for each shape", made=_shapes,
+    cost="O(1)", made=_shapes,
 )
 def jointed_links_shapes(
     *, lower_weight: float, lower_centroid: float, lower_radius_of_gyration: float, upper_weight: float,

@@ -51,7 +51,7 @@ class Compiled:
         return np.array(model.numeric(name).data if name in known else [])
 
     def _acts(self, *what: str) -> bool:
-        """Whether none of these kinds of forces is disabled in the file."""
+        """Return whether none of these kinds of forces is disabled in the file."""
         flags = [getattr(self.mujoco.mjtDisableBit, f"mjDSBL_{each.upper()}", None) for each in what]
         return not any(self.model.opt.disableflags & int(flag) for flag in flags if flag is not None)
 
@@ -203,7 +203,7 @@ class Compiled:
             self._look_at_actuator(k)
 
     def _any(self, kind: str, fields: tuple[str, ...], number: int) -> bool:
-        """Whether one of these fields of an element is not 0; some are not in all versions of MuJoCo."""
+        """Return whether one of these fields of an element is not 0; some are not in all versions of MuJoCo."""
         values = [getattr(self.model, f"{kind}_{field}", None) for field in fields]
         return any(np.any(each[number]) for each in values if each is not None)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a reader of a model finds: obstacles, what is left out because the caller says so, and remarks."""
+"""The obstacles in a model, the parts left out because the caller says so, and the remarks."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ WORDS = {
     "tendon": "tendons that exert a force",
     "visual": "included files and meshes that are missing",
 }
-"""What the argument `ignore` may name."""
+"""The words of the argument `ignore`."""
 
 _OTHER_WORDS = {  # attributes of MuJoCo that mean a word
     "frictionloss": "friction", "limited": "range", "limit": "range", "spring": "stiffness", "springref": "stiffness",
@@ -35,7 +35,7 @@ _OTHER_WORDS = {  # attributes of MuJoCo that mean a word
 
 
 class ModelWarning(UserWarning):
-    """What `from_mjcf` and `from_urdf` left out of a model or changed in it, and the gravity of the model.
+    """A warning that lists what `from_mjcf` or `from_urdf` left out of a model or changed, with the model's gravity.
 
     Attributes
     ----------

@@ -296,7 +296,7 @@ class Model(Compiled):
     # ---- the links
 
     def _moves_in_a_plane(self, parts: list[_Part]) -> bool:
-        """Whether all joints are parallel hinges. If these are inclined, gravity in the plane is less."""
+        """Return whether all joints are parallel hinges. If these are inclined, gravity in the plane is less."""
         every = [j for part in parts for j in part.joints]
         if len(every) > len(parts) or any(self.model.jnt_type[j] != self.hinge for j in every):
             return False
@@ -472,7 +472,7 @@ class Model(Compiled):
         return _Link(named, mass, length, centroid, radius, axial, way, turned, stiffness, damping, bool(inverted))
 
     def _stands(self, axis: Floats, above: _Link | None, joint: int) -> bool | None:
-        """Whether a link stands if the springs at its pin are relaxed in this direction; None if it is not straight."""
+        """Return whether a link stands if the springs at its pin relax in this direction; None if it is not straight."""
         over, what = (-self.up, "the vertical") if above is None else (above.axis, "the link above")
         cosine, sine = float(axis @ over), float(np.linalg.norm(np.cross(axis, over)))
         if sine > _NEAR:
@@ -482,7 +482,7 @@ class Model(Compiled):
         return (above is not None and above.inverted) != (cosine < 0)
 
     def _way(self, part: _Part, axis: Floats, is_plane: bool) -> tuple[str, Floats | None]:
-        """How a link with this axis in space turns about its pin, and the direction of its hinge if it has only one."""
+        """The way in which a link with this axis turns about its pin, and the direction of its hinge if it has one."""
         kinds, axes = {int(self.model.jnt_type[j]) for j in part.joints}, self.at.xaxis[part.joints]
         if not kinds <= {self.hinge, self.ball}:
             return "none", None
@@ -512,7 +512,7 @@ class Model(Compiled):
 
 
 def _is_on(vector: Floats, line: Floats) -> bool:
-    """Whether a vector lies on a line, to rounding."""
+    """Return whether a vector lies on a line, to rounding."""
     along = line / np.linalg.norm(line)
     return bool(np.linalg.norm(vector - (vector @ along) * along) <= _NEAR * np.linalg.norm(line))
 

@@ -176,7 +176,7 @@ class Imported(NamedTuple):
     has_gravity: bool
 
     def said(self) -> list[tuple[str, tuple[Sentence, ...]]]:
-        """What was left out, and the remarks, each with a title."""
+        """The list of what was left out and that of the remarks, each with a title."""
         return [(title, each) for title, each in (("left out:", self.left_out), ("remarks:", self.remarks)) if each]
 
 

@@ -57,9 +57,9 @@ def to_mjcf(
     Raises
     ------
     ValueError
-        If the system is a cord or held at both ends, stands in a fluid, has a flywheel in a link without moment of
-        inertia, links that meet at a pin without mass, or more than 490 links; if `gravity` is given with a shape; or if
-        the file cannot be written.
+        If the system is a cord or held at both ends, stands in a fluid, has linear drag, a flywheel in a link without
+        moment of inertia, links that meet at a pin without mass, or more than 490 links; if `gravity` is given with a
+        shape; or if the file cannot be written.
     TypeError
         If `system` is of another class.
 

@@ -126,7 +126,7 @@ class Drawing:
             text.set_text(plain(figure.captions[0]))
 
     def _names(self, names: list[str], left: float, line: float) -> None:
-        """Write the names of the links to the left of the first figure, at the heights of their bodies in its first frame."""
+        """Write the names of the links left of the first figure, at the heights of their bodies in its first frame."""
         film = self.film
         height = film.figures[0].heights(0) * np.cos(TILT)
         along = np.full(len(names), 0.5)

@@ -116,16 +116,17 @@ def plot_branches(
     """Draw the bifurcation diagram: a quantity of each branch against the speed.
 
     Colours show half waves at the start. A line is solid where the shape is a minimum of the energy, dash-dotted where it
-    is no minimum but spectrally stable, dashed where it is unstable, dotted where the errors of the exponents leave the stability open.
-    Hollow diamonds are folds, discs are pitchforks, where a branch and its mirror image leave the vertical; their speeds are
-    above the frame, unless another one is so close that the numbers would overlap. Crosses are other changes of stability, such as a Hamiltonian Hopf bifurcation;
-    `Branches.stability_windows` says what each is. The line changes at the ends of these windows, also between two points.
-    Above about 19,000 (points times links squared) fewer places are examined, above 150,000 only the points and their
-    neighbours, so that a short window can be missed. With ``hanging_only=False`` colours show the posture, up to 7 of them.
+    is no minimum but spectrally stable, dashed where it is unstable, dotted where the errors of the exponents leave the
+    stability open. Hollow diamonds are folds, discs are pitchforks, where a branch and its mirror image leave the
+    vertical; their speeds are above the frame, unless another one is so close that the numbers would overlap. Crosses are
+    other changes of stability, such as a Hamiltonian Hopf bifurcation; `Branches.stability_windows` says what each is.
+    The line changes at the ends of these windows, also between two points. Above about 19,000 (points times links
+    squared) fewer places are examined, above 150,000 only the points and their neighbours, so that a short window can
+    be missed. With ``hanging_only=False`` colours show the posture, up to 7 of them.
 
     quantity: Quantity to draw, as in `Branch.plot`.
-    stability: Whether to draw the stability; if False, all lines are solid. If left out, it is drawn for chains, rigs and held
-        chains if that takes less than about a second (points times links squared at most 150,000).
+    stability: Whether to draw the stability; if False, all lines are solid. If left out, it is drawn for chains, rigs and
+        held chains if that takes less than about a second (points times links squared at most 150,000).
     frame: Frame of the stability, ``"free"`` or ``"driven"``, as in `SteadyShape.stability`.
     returns: The drawing. The title says whether the diagram is `complete`.
     raises: If `quantity` is another word, or one that the system does not have; if `frame` is another word.

@@ -91,7 +91,7 @@ class Straight:
         return max([*reach, WHEEL * self.system.has_momentum])
 
     def room(self, narrow: float = 1.0) -> tuple[float, float]:
-        """Return how far bodies and a spring reach to the left, and names to the right if columns are so many times narrower."""
+        """Return how far parts reach to the left and names to the right, in columns `narrow` times narrower."""
         far, longest = self.beside(), max((len(line) + 2 for name in self.names() for line in name.split("\n")), default=0)
         left = max(SPACING / 2, far + 0.2 + 0.9 * (self.system._support is not None))
         return left, max(SPACING / 2, far + narrow * longest * LETTER * SPACING / COLUMN)
@@ -277,7 +277,7 @@ def plot_system(system: System, ax: Axes | None = None) -> Axes:
     """Draw the system at rest, true to scale along the axis.
 
     returns: The drawing: joints (small dots), bodies (larger dots are heavier), rods as bars from end to end, and
-        names of up to 40 links. Inverted links are thick, wheels are seen edge-on, bodies that float are hollow, and a
+        names of up to 12 links. Inverted links are thick, wheels are seen edge-on, bodies that float are hollow, and a
         cord is thicker where it is heavier. Links whose names have a word such as ``bell`` or ``man`` are drawn as such.
 
     >>> rc.Chain(mass=[1.0, 2.0], length=[0.5, 0.3]).plot().get_ylabel()
@@ -440,7 +440,7 @@ def _draw_mode(ax: Axes, modes: Modes, straight: Straight, row: int, shape: Floa
 
 
 def plot_carried(found: Response, ax: Axes | None, pins: list[int], unit: SpeedUnit) -> Axes:
-    """Draw the response at one speed as a shape, with the support on its circle; with dashpots when its lowest pin is farthest."""
+    """Draw the response at one speed as a shape; with dashpots at the moment when its lowest pin is farthest."""
     straight = Straight(found.system)
     across = np.full(straight.level.size, np.nan)
     available = np.atleast_1d(found.pins)

@@ -31,9 +31,9 @@ def plot_response(
 ) -> Axes:
     """Draw the distances of pins from the axis against the speed, on a logarithmic scale.
 
-    A line is dashed if the pin is on the side opposite to the support (with dashpots: behind by more than a quarter of a turn);
-    vertical lines mark the resonances.
-    A response at one speed is drawn as a shape: the offsets of the pins against their depths.
+    A line is dashed if the pin is on the side opposite to the support (with dashpots: behind by more than a quarter of a
+    turn); vertical lines mark the resonances. A response at one speed is drawn as a shape: the offsets of the pins
+    against their depths.
 
     pins: Numbers of the pins to draw. If left out: the lowest and up to three others, evenly spaced; all at a
         single speed.
@@ -106,9 +106,10 @@ def plot_swing(
 ) -> Axes:
     """Draw the system at the given times, the offsets of pins against time, or their paths seen from above.
 
-    kind: ``"shapes"``: shapes from dark (early) to light (late), with enlarged offsets, at most five; the usual one
-        of a swing in a plane. ``"time"``: offsets against time, with momentum those along y dashed; the usual one of a
-        support that is moved, which is grey. ``"path"``: paths seen from above; the usual one, and only, with momentum.
+    kind: ``"shapes"``: shapes from dark (early) to light (late), with enlarged offsets, at most five; the usual one of
+        a swing in a plane, not with momentum. ``"time"``: offsets against time, with momentum those along y dashed; the
+        usual one of a support that is moved, which is grey. ``"path"``: paths seen from above; with momentum only, and
+        then the usual one.
     pins: For ``"time"`` and ``"path"``: numbers of the pins, 0 for the free end; for a cord, indices in
         `arc_length`.
     raises: If `kind` is another word, or there is no such pin.
@@ -155,10 +156,10 @@ def plot_swing(
 
 @described(bound=True)
 def plot_campbell(found: Campbell, ax: Axes | None = None, *, speed: str | None = None) -> Axes:
-    """Draw the frequencies against the speed, with its multiples and a dot at each crossing; red where the shape is unstable.
+    """Draw the frequencies against the speed, its multiples, and a dot at each crossing; red where the shape is unstable.
 
-    speed: Unit of speeds and frequencies: ``"rpm"``, ``"rad/s"``, ``"Hz"``, or ``"s"``, which draws periods against the period.
-        If left out, that of the question, or rpm.
+    speed: Unit of speeds and frequencies: ``"rpm"``, ``"rad/s"``, ``"Hz"``, or ``"s"``, which draws periods against the
+        period. If left out, that of the question, or rpm.
 
     >>> import numpy as np
     >>> carousel = rc.Rig(rc.Chain(mass=80.0, length=4.0), support=rc.Support(radius=3.0))

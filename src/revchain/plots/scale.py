@@ -33,8 +33,8 @@ WIDE_NAME = 26  # letters in a line
 def plot_to_scale(system: Any) -> Axes:
     """Return a drawing of a system at rest, true to scale, with the lengths and masses of its links.
 
-    Symbols of bodies are larger than life where these are small. A system whose ends are held a span apart is drawn as an arc
-    of its length; a governor with its arms half-way between its stops.
+    Symbols of small bodies are larger than true to scale. A system whose ends are held a span apart is drawn as an arc of
+    its length; a governor with its arms half-way between its stops.
 
     Examples
     --------
@@ -65,7 +65,7 @@ class _Page:
         self.ax.set(xlim=(left - extra[0], right + extra[0]), ylim=(low - extra[1], high + extra[1]))
 
     def dimension(self, begin: tuple[float, float], end: tuple[float, float], text: str, away: float, at: float | None = None) -> None:
-        """Draw a dimension line between two points, moved away by points (upright ones to the left), with its text at a level."""
+        """Draw a dimension line between two points, moved away (upright ones to the left), with its text at a level."""
         upright = begin[0] == end[0]
         moved = moved_by(self.ax, -away, 0.0) if upright else moved_by(self.ax, 0.0, away)
         near = moved_by(self.ax, -away - 3, 0.0) if upright else moved_by(self.ax, 0.0, away + 3)
@@ -83,7 +83,7 @@ class _Page:
         self.ax.annotate(text, middle, xycoords=place, fontsize=LETTERS, color="0.15", bbox=box, annotation_clip=False, **align)
 
     def names(self, x: float, levels: Any, texts: list[str]) -> None:
-        """Write texts beside points at a distance x from the axis, apart from each other, with a line to where they belong."""
+        """Write texts beside points at a distance x from the axis, apart from each other, each with a line to its point."""
         import textwrap
 
         folded = [textwrap.fill(text, WIDE_NAME) for text in texts]
@@ -132,7 +132,7 @@ class _Drawing:
         return [(int(a), int(b) - 1) for a, b in zip(first[:-1], first[1:], strict=True)] if first.size <= MOST_TEXTS + 1 else []
 
     def _wheels(self) -> Any:
-        """Whether each link has a flywheel with momentum, drawn as a bar."""
+        """Return whether each link has a flywheel with momentum, drawn as a bar."""
         return (self.system._momentum(1.0) != 0) & ~np.isin(np.arange(self.base.size), [*self.straight._forms])
 
     def drawn(self) -> Axes:

@@ -176,7 +176,7 @@ def _label(array: DataArray) -> str:
 
 
 def _is_log(grid: DataArray) -> bool:
-    """Whether the values of a grid have equal ratios."""
+    """Return whether the values of a grid have equal ratios."""
     values = grid.to_numpy()
     if values.size < 3 or not (values > 0).all():
         return False

@@ -56,7 +56,7 @@ def conical_heights(
     -------
     numpy.ndarray, shape (..., count)
         Conical heights ``g / n**2``, descending, in the unit of the lengths. They are bitwise equal for any number of
-        threads and any place of a chain in the batch.
+        threads and wherever a chain is in the batch.
 
     Raises
     ------

@@ -158,9 +158,9 @@ def branches(
         Chains and rigs: whether to leave out branches with a link above its upper pin (for a rig: with other links
         inverted than those of the rig). If false, the branches of all ``2**N`` postures are found; N at most 10.
     stability : bool, optional
-        Whether to draw the windows of stability, list them in reports and compute `Branch.verdict` of every branch now;
-        not for cords. Otherwise tables and pictures compute it
-        when they need it, if that takes less than about a second.
+        Whether to compute `Branch.verdict` of every branch now, to draw the windows of stability and to list them in
+        reports; not for cords. Otherwise tables and pictures compute it when they need it, if that takes less than about
+        a second.
 
     Returns
     -------
@@ -190,11 +190,10 @@ def branches(
     ``consistent`` is true if every list is proved complete and each of its shapes matches exactly one branch.
 
     An isolated branch that is a closed loop can begin and end between two of the 16 speeds, so that no list contains it.
-    Interval arithmetic therefore splits the plane of conical
-    height and tangent of the lowest link until each part has no fold, or has all its shapes on one curve through a
-    known branch. Loops found in this way are followed. ``complete`` is true if this succeeds for every part; it is
-    false if links could hang at several inclinations. The proof relies on `branch`, whose steps are checked, not
-    proved.
+    Interval arithmetic therefore splits the plane of conical height and tangent of the lowest link until each part has
+    no fold, or has all its shapes on one curve through a known branch. Loops found in this way are followed.
+    ``complete`` is true if this succeeds for every part; it is false if links could hang at several inclinations. The
+    proof relies on `branch`, whose steps are checked, not proved.
 
     For rigs (on springs, on an arm, with flywheels, in fluids) the proof needs all links in tension at every speed up
     to the given one. Below the first critical speed such a rig has exactly one shape if its support is off the axis,
@@ -206,10 +205,9 @@ def branches(
     links are inverted, and with ``hanging_only=False`` each of these diagrams is computed. ``consistent`` then refers to
     the proved lists of every posture. The heights `looked_at` are those at which all postures without a proof were listed.
 
-    Cost, measured down to a conical height of 1/200 of the length: three links 4 to 8 ms, five 15 ms, six 30 ms. Eight
-    equal plummets on threads of length a, to 5 sqrt(g/a): 0.1 s; twenty rods, 1 m in all, to 20 rad/s: 0.05 s. All
-    postures down to 1/50 of the length: three links 0.03 s, four 0.1 s, six (196 branches) 0.7 s. Ten links down to a
-    fifth of the length take some 10 s.
+    Cost for equal plummets down to a conical height of 1/200 of the length: three 5 ms, five 25 ms, eight on threads of
+    length a, to 5 sqrt(g/a): 0.1 s; for twenty equal rods, 1 m in all, to 20 rad/s: 0.04 s. All postures of plummets down
+    to 1/50 of the length: three 0.02 s, four 0.07 s, six (196 branches) 0.5 s.
 
     Examples
     --------

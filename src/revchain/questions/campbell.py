@@ -33,9 +33,9 @@ def campbell(
 ) -> Campbell:
     """Return the frequencies of small motion about a steady shape at many speeds, and the speeds to avoid.
 
-    Wind, a tilted axis and every other influence that is constant in space turns once for each turn of the system, seen from
-    the system. Where a frequency equals the speed (1n) it is in resonance with that; where it is twice the speed (2n), with
-    what repeats twice in a turn.
+    Seen from the system, wind, a tilted axis and any other influence that is constant in space turns once in each turn.
+    A motion whose frequency equals the speed (1n) is in resonance with it; one of twice the speed (2n) is in resonance
+    with what repeats twice in a turn.
 
     Parameters
     ----------
@@ -46,10 +46,10 @@ def campbell(
     orders : iterable of int
         Multiples of the speed; those listed twice are taken once.
     half_waves : int
-        Number of half waves of the shape. If several shapes have this number, the one is taken that is farthest out; with the
-        support off the axis it is that which begins at rest.
+        Number of half waves of the shape. Of several shapes with this number it is the one whose free end is farthest
+        out; with the support off the axis, the one that begins at rest.
     frame : {"free", "driven"}
-        As in `SteadyShape.stability`.
+        Frame, as in `SteadyShape.stability`.
     gravity : float, optional
         Acceleration of gravity, m/s^2; standard gravity if left out.
 
@@ -63,17 +63,18 @@ def campbell(
     TypeError
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
     ValueError
-        If `system` is a `Cord` or a `Held`; if speeds are not positive, finite and ascending; if `orders` has none, or not
-        whole positive numbers; as `steady_shapes` and `SteadyShape.stability`; if there is no such shape at any of the speeds
-        given, or no small motion of it is known (in a fluid that turns).
+        If `system` is a `Cord` or a `Held`; if there are fewer than two speeds, or they are not positive, finite and
+        ascending; if `orders` is empty, or has another number than a positive whole one; if `steady_shapes` or
+        `SteadyShape.stability` refuses the system; if there is no such shape at any of the speeds, or no small motion of
+        it is known (in a fluid that turns).
 
     Notes
     -----
     Method: `steady_shapes` and `stability` at each speed. Where a frequency less a multiple of the speed changes its sign
     between two speeds, the zero is found by interpolation; a sign that changes in a jump is no crossing. Accuracy: that of
-    the exponents, 1e-13 of the largest; crossings 1e-12. Cost: 0.04 milliseconds for each speed with two links, 1 with
-    twenty; ten times as much for each crossing. Source: W. Campbell, The Protection of Steam-Turbine Disk Wheels from Axial
-    Vibration, Trans. ASME 46 (1924).
+    the exponents, 1e-13 of the largest; crossings 1e-12. Cost: 0.05 milliseconds for each speed with two links, 0.7
+    with twenty, and a few times as much for each crossing. Source: W. Campbell, The Protection of Steam-Turbine Disk Wheels
+    from Axial Vibration, Trans. ASME 46 (1924).
 
     Examples
     --------

@@ -58,10 +58,9 @@ def steady_shapes(
         Acceleration of gravity, m/s^2; standard gravity if left out. Not used for a weightless held system.
     budget : int, optional
         Largest number of links to visit while the range of inclinations of the lowest link is split. Chains and rigs:
-        3,000,000 if left out, at half a microsecond each (two if ``l < a``), about 2 to 10 seconds in all; with 0 or
-        less the list is empty and not complete. Held chains: 300,000 if left out, at 1 to 2 microseconds each; with 0
-        completeness is not proved. Cords for which no theorem counts the shapes: number of offsets of the free end to
-        examine, 200 if left out.
+        3,000,000 if left out, at about half a microsecond each; with 0 or less the list is empty and not complete. Held
+        chains: 300,000 if left out, at about a microsecond each; with 0 completeness is not proved. Cords for which no
+        theorem counts the shapes: number of offsets of the free end to examine, 200 if left out.
     hanging_only : bool, optional
         Chains and rigs: whether to leave out shapes in which a link is inverted, that is, at more than a right angle to
         the downward vertical. For a rig: whether to leave out shapes with other links inverted than those of the rig.
@@ -105,8 +104,8 @@ def steady_shapes(
         line between the ends (with springs: between their rest positions). ``missing`` lists the half waves without a
         shape. Held chains: ``complete`` is true if it is proved that there are no other shapes with these numbers of
         half waves; else ``undecided`` gives the inclinations of the lowest link at which others may start. The proof
-        usually succeeds for one half wave of 3 to 9 links with ``l <= a`` and mass at every pin. With 20 links and more
-        it often leaves a few hundredths of a radian; for more half waves it seldom succeeds. If both ends are off the
+        usually succeeds for one half wave of up to 9 links with ``l <= a`` and mass at every pin; with more links or half
+        waves it often leaves a part undecided. If both ends are off the
         axis, a shape need not lie in a plane. Only shapes in the plane of the ends are searched for, and ``complete``
         is false. Held cords: ``complete`` is true for a span without gravity, which has one shape for each number of
         half waves.
@@ -127,15 +126,15 @@ def steady_shapes(
     ``pendulum_length > length``, can have three inclinations under one load; all are followed. The list is not
     complete exactly at a critical speed or where two shapes start, or if the budget ends. For heights below about
     2e-15 of the longest link it is empty and not complete: double-double cannot represent the offsets from which the
-    tensions follow. Cost: 15 milliseconds for 84 hanging shapes of eight plummets, about 30 for all 64 shapes of four
-    plummets. The number of shapes and the time roughly double with each link; if links may be inverted they quadruple.
+    tensions follow. Cost: 12 milliseconds for 84 hanging shapes of eight plummets, or for all 64 shapes of four plummets.
+    One link more multiplies the number of shapes and the time by 1.5 to 2; if links may be inverted, by about 4.
 
     Cords. Method: power series along the cord, Newton's method on the point where it crosses the axis. Inclinations,
     and offsets divided by the length, are within ``error_bound``, which is an estimate.
 
     Held systems. Accuracy: inclinations of chains are correctly rounded to within 1e-20, with a bound that is usually
     proved; positions on cords are within 1e-13 of the length. Completeness: Krawczyk's test on the pull along the
-    lowest link and its inclination, 0.05 to 0.5 s.
+    lowest link and its inclination, at most about 0.2 s for one half wave.
 
     Examples
     --------
@@ -321,7 +320,7 @@ def steady_shape(
 
     Notes
     -----
-    Cost: O(N); 0.4 s for 100,000 rods at twice the first critical speed. Source: Greenhill (1908), section 8 (4), (12).
+    Cost: O(N); 0.7 s for 100,000 rods at twice the first critical speed. Source: Greenhill (1908), section 8 (4), (12).
 
     Examples
     --------

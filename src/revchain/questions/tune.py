@@ -84,7 +84,7 @@ def tune(
     -------
     Tuned
         The value with its error bound, and the new system. Cost: for a link, 10 to 60 counts of O(N) each; for a mass the
-        time of 10 to 100 modes; for other searches that of about 150 modes.
+        time of 10 to 25 modes for each link; for other searches that of some hundred modes.
 
     Raises
     ------

@@ -15,7 +15,7 @@ from .sheet import Sheet, in_unit
 
 
 class Crossing(NamedTuple):
-    """Where a frequency meets a multiple of the speed.
+    """The crossing of a frequency with a multiple of the speed.
 
     `order`: the multiple. `motion`: number of the frequency, from 1 for the lowest. `angular_speed`: rad/s.
     """

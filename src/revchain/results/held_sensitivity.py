@@ -30,9 +30,9 @@ class _HeldChain:
         X + E (y_0 - b) - carriage y_0 / lambda = 0,    or y_0 = b,    y_0 = y + sum of a sin d
         sum of a cos d = span
 
-    The unknowns are the inclinations d, the offset y of the upper end, X and Z. Here a is the length of a link, y_0 the offset
-    of the lower end, lambda the conical height; E, b and carriage are the stiffness of an end, its distance from the axis and
-    the mass that moves with it, in the same units.
+    The unknowns are the inclinations d, the offset y of the upper end, X and Z. Here a is the length of a link, y_0 the
+    offset of the lower end, lambda the conical height; E, b and carriage are the stiffness of an end, its distance from
+    the axis and the mass that moves with it, in the same units.
     """
 
     def __init__(self, shape: SteadyShape) -> None:
@@ -89,7 +89,7 @@ class _HeldChain:
         return found
 
     def changes(self) -> dict[str, Change]:
-        """Return, for each datum of the chain and of the upper end, how it changes the balance of the chain that hangs there."""
+        """Return the change of the balance of the hanging chain by each datum of the chain and of the upper end."""
         at, none = self.hanging, np.zeros((self.hanging.size, 1))
         found = changes_of(at)
         if self.weightless:

@@ -168,17 +168,17 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
     """The modes of a system, slowest first: speeds, shapes, nodes and error bounds of k modes.
 
     Heights and bounds are computed at once. Shapes, nodes, residuals and sensitivities are computed when they are first
-    read, then stored; shapes, nodes and residuals also when the result is saved. Arrays are read-only. A window may contain no modes (k = 0). ``modes[0]`` is a row: one number or
-    array of each field. For a cord held straight at both ends, distances start at its lower end.
+    read, then stored; shapes, nodes and residuals also when the result is saved. Arrays are read-only. A window may
+    contain no modes (k = 0). ``modes[0]`` is a row: one number or array of each field. For a cord held straight at both
+    ends, distances start at its lower end.
 
     Notes
     -----
     Heights of a cord are zeros of Bessel functions, Greenhill (1908), section 4: of ``J0`` for a uniform cord, of ``Jp`` for
     a density s^p, of a cross product of ``J`` and ``Y`` for a uniform cord with a tip or held at both ends. All others are
     computed by power series. Accuracy (``error_bound``): 3 ulp, 2 ulp with a tip, 4e-15 by power series. Nodes and vertical
-    points: 5 ulp (uniform), 3 ulp (a power), else 1e-15 of the length. Cost: 0.01 to 15 microseconds for a height in closed
-    form, 1 millisecond for each mode up to the last by power series; that of its height for a node; that of ten slopes for a
-    vertical point with a tip or by power series.
+    points: 5 ulp (uniform), 3 ulp (a power), else 1e-15 of the length. Cost: 0.1 to 5 microseconds for a height in closed
+    form, 0.4 to 3 milliseconds for each mode up to the last by power series; no more for a node or a vertical point.
 
     Examples
     --------
@@ -364,7 +364,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
     precision: Field[str] = Field("Arithmetic of the result, see `revchain.modes`.", lambda m: "double", part=True, fact=True)
     rtol: Field[float | None] = Field("Requested relative tolerance; None for full accuracy.")
     complete: Field[bool] = Field(
-        "Whether it is proved that these modes, and for a rig the other solutions, are all that were asked for.",
+        "Whether it is proved that these modes, and for a rig the other solutions, are all that were asked for. For "
+        "chains and cords it is false, too, if `rtol` was not met.",
         otherwise=lambda m: m.status == "success",
         fact=True,
     )
@@ -381,7 +382,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         otherwise=lambda m: 0,
     )
     other: Field[OtherModes] = Field(
-        "The solutions that are not steady motions, computed when first read. Cost: 1 microsecond per solution and link.",
+        "The solutions that are not steady motions, computed when first read. Cost: 0.6 microseconds per solution and link.",
         lambda m: _others(m),
         fact=True,
     )
@@ -397,7 +398,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         fact=True,
     )
     sensitivity: Field[Sensitivity] = Field(
-        "Derivatives with respect to each datum. Cost: 2 microseconds per link and mode.", lambda m: _sensitivity(m)
+        "Derivatives with respect to each datum. Not for held chains, nor for rigs with springs at pins, dashpots or linear drag. Cost: 0.6 microseconds per link and mode.", lambda m: _sensitivity(m)
     )
     description: Field[str] = Field("The system in words.", lambda m: m.system.describe(), fact=True)
     summary: Field[str] = Field("What was found, in words.", lambda m: _summary(m))
@@ -498,8 +499,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
             Standard deviations of the data of a cord: of its tip, of the exponent of its density, of the tension that holds
             it.
         worst : bool, optional
-            Whether to find the proved extremes of the speeds as well, in ``.worst``. The given numbers are then half-widths of
-            tolerances: each datum lies anywhere between its value minus and plus that much.
+            Whether to find the proved extremes of the speeds as well, in ``.worst``. The given numbers are then
+            half-widths of tolerances: each datum lies anywhere between its value minus and plus that much.
 
         Returns
         -------
@@ -509,22 +510,23 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         Raises
         ------
         ValueError
-            If a deviation is negative or not finite, has another shape, or a covariance is not symmetric; if the system has no
-            such datum, or was given by another; if a path is unknown, or two data are the same number; if a chain is held at
-            both ends. With ``worst=True`` also if a half-width is as large as its datum, or the system has flywheels, a
-            fluid, standing links or more than 100 links, or is a cord with point masses or a bob, for which there is no proof.
+            If a deviation is negative or not finite, has another shape, or a covariance is not symmetric; if the system
+            has no such datum, or was given by another; if a path is unknown, or two data are the same number; if a
+            chain is held at both ends, or a rig has springs at pins, dashpots or linear drag. With ``worst=True`` also
+            if a half-width is as large as its datum, or the system has flywheels, a fluid, standing links or more than
+            100 links, or is a cord with point masses or a bob, for which there is no proof.
 
         Notes
         -----
         The result is to first order: heights are linear in the data. If a derivative is nearly 0, or a deviation is large
         compared with its datum, sample instead. See `Sensitivity` for the data that are constant while one changes. Cost:
-        that of the sensitivities, 2 microseconds for each link and mode.
+        that of the sensitivities, 0.6 microseconds for each link and mode.
 
-        The extremes of ``worst=True`` are to all orders, and rounding is included. They are exact, reached at a corner of the box,
-        for most tolerances of masses, lengths in proportion, radii of gyration and of the support; for independent lengths and
-        centroids of bodies they may be wider than the speeds reached: see `WorstCase.gap`. Cost for each mode: 10 to 30
-        milliseconds for ten links, 2 seconds for a hundred; up to thirty times as much where the box must be divided. Method:
-        Loewner bounds of the two quadratic forms, and Courant and Fischer's theorem at a corner of the box.
+        The extremes of ``worst=True`` are to all orders, and rounding is included. They are exact, reached at a corner
+        of the box, for most tolerances of masses, lengths in proportion, radii of gyration and of the support; for
+        independent lengths and centroids of bodies they may be wider than the speeds reached: see `WorstCase.gap`. Cost
+        for each mode: 10 milliseconds for ten links, 0.6 seconds for a hundred; more where the box must be divided.
+        Method: Loewner bounds of the two quadratic forms, and Courant and Fischer's theorem at a corner of the box.
 
         Examples
         --------
@@ -574,7 +576,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
             Offsets divided by that of the free end; for a cord held at both ends, by the largest. Accuracy, relative to the
             largest offset of each mode (which exceeds 1 with a tip and for p below -1/2): 1e-15 times the mode number, twice
             that with a tip; for a density s^p 1e-15 times ``1 + 2 sqrt((p + 1) length / conical_height)``; 1e-14 by power
-            series. Cost: 1 to 15 microseconds for each mode and place, 100 for a density function.
+            series. Cost: 0.2 to 10 microseconds for each mode and place.
 
         Raises
         ------
@@ -739,8 +741,9 @@ def _speed_bound(error: Floats) -> Floats:
 def speed_bound_of_exponents(exponent: Complex, error: Floats, turns: bool) -> Floats:
     """Bound of the relative error of the imaginary parts of exponents whose relative error is at most `error`.
 
-    The error of an imaginary part is at most ``error * abs(exponent)``. An exponent on the real axis that is proved apart from
-    all others is exactly real, because its conjugate is an exponent too; not with wheels (`turns`), where it is none.
+    The error of an imaginary part is at most ``error * abs(exponent)``. An exponent on the real axis that is proved
+    apart from all others is exactly real, because its conjugate is an exponent too; not with wheels (`turns`), where it
+    is none.
     """
     speed = np.abs(exponent.imag)
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -211,8 +211,8 @@ class Response(Result, Moving):
 class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",), spread=True):
     """Motion of a chain, rig or cord after release or under a moving support, as a sum of its k modes; returned by `swing`.
 
-    Offsets are real if the motion is in one plane. Flywheels with momentum turn the plane: offsets are then complex, x + i y,
-    and the modes are whirls of either direction.
+    Offsets are real if the motion is in one plane. Flywheels with momentum turn the plane: offsets are then complex,
+    x + i y, and the modes are whirls of either direction.
 
     Examples
     --------

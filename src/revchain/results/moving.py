@@ -40,7 +40,7 @@ class Moving:
             six if left out.
         time_scale : float, optional
             Seconds of motion in one second of film: 1 is real time, 0.1 ten times slower. If left out, it is chosen so
-            that the fastest figure takes at least 0.8 s for a turn; the film says what it is.
+            that the fastest figure takes about 0.8 s or more for a turn; the film says what it is.
         duration : float, optional
             Seconds of film. If left out: one turn of the slowest figure, at most 10 s; 12 s for a branch or a response.
         frames_per_second : float

@@ -32,9 +32,9 @@ class Sensitivity(Result):
     """Derivatives of some numbers with respect to each datum of a system, all other data constant.
 
     ``s.mass`` and ``s["mass"]`` are arrays by a datum of the links, shape (R, N), links lowest first, or by another datum,
-    shape (R,), for R numbers: the conical heights of the modes of a chain or cord, the whirl speeds of the modes of a rig, or
-    inclinations, offsets and tensions of a steady shape. ``s.data`` lists the data. For a system given by weight, data with
-    "mass" in their names are weights. The derivatives of speeds follow from those of heights by
+    shape (R,), for R numbers: the conical heights of the modes of a chain or cord, the whirl speeds of the modes of a
+    rig, or inclinations, offsets and tensions of a steady shape. ``s.data`` lists the data. For a system given by
+    weight, data with "mass" in their names are weights. The derivatives of speeds follow from those of heights by
     ``-angular_speed / (2 * conical_height)``.
 
     Notes
@@ -63,7 +63,8 @@ class Sensitivity(Result):
     ``lower_radius`` ...            radius, stiffness and mass of the lower and upper end of what is held
     ==============================  =================================================================================
 
-    The position and size of the displaced fluid and the momentum of the flywheel are constant while a datum of a link changes.
+    The position and size of the displaced fluid and the momentum of the flywheel are constant while a datum of a link
+    changes.
 
     Laws: the relative derivatives of a height by masses add up to 0, those by lengths, centroids and radii of gyration to 1,
     and those by lengths in proportion to 1; each of these is the link's share of the potential energy. Method for modes:
@@ -398,7 +399,7 @@ def _path(system: Any, name: str, link: int) -> str:
 
 
 def _checked(caller: str, modes: Modes, given: dict[str, Any], known: tuple[str, ...]) -> dict[str, Any]:
-    """Return the given deviations by the names of their data; raise a ValueError for a datum that the system does not have."""
+    """Return the deviations by the names of their data; raise a ValueError for a datum that the system lacks."""
     system, kind = modes.system, modes.system._kind
     given, heavy = dict(given), "mass" if system.by_mass else "weight"
     if kind in ("chain", "rig") and ("mass" in given or "weight" in given):
@@ -495,7 +496,7 @@ def _parts_of_data(caller: str, value: Any, data: Floats) -> list[Any]:
 
 
 def _spread(caller: str, given: Any, datum: float) -> Any:
-    """What stands behind +- in text such as "38 m +- 0.5 m", whose first number must be the datum; anything else unchanged."""
+    """The text after +- in text such as "38 m +- 0.5 m", whose first number must be the datum; other values unchanged."""
     parts = with_tolerance(given) if isinstance(given, str) else None
     if parts is None:
         return given

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from .. import _core
 from ..systems.chain import Chain
 from ..systems.numbers import Floats, Whole, floats, numbers, refuse_where, shown
-from .base import Field, Result, Results, UnavailableError
+from .base import Field, Result, Results, UnavailableError, not_there
 from .diagrams import ForceDiagram
 from .held_sensitivity import held_shape_sensitivity
 from .moving import Moving
@@ -27,7 +27,7 @@ FORCES = ("tension", "effective_energy", "lower_pull", "upper_pull")
 
 
 def is_driven(caller: str, frame: str) -> bool:
-    """Whether `frame` is ``driven``; a ValueError unless it is ``driven`` or ``free``."""
+    """Return whether `frame` is ``driven``; a ValueError unless it is ``driven`` or ``free``."""
     if not isinstance(frame, str) or frame not in ("free", "driven"):
         raise ValueError(f"{caller}: frame must be 'free' or 'driven', got {shown(frame)}")
     return frame == "driven"
@@ -43,9 +43,10 @@ class Stability(
 
     Notes
     -----
-    Exponents and verdict are without damping, but for dashpots of a rig at its pins. A minimum stays stable with friction at the pins. A shape that is only
-    ``spectrally stable`` is stabilized by gyroscopic forces: any friction at the pins makes its motions of negative
-    energy grow. `internal_damping` and `external_damping` give the effect on each motion, to first order.
+    Exponents and verdict are without damping, except for dashpots of a rig. A minimum stays stable with friction at the
+    pins. A shape that is only ``spectrally stable`` is stabilized by gyroscopic forces: any friction at the pins makes
+    its motions of negative energy grow. `internal_damping` and `external_damping` give the effect on each motion, to
+    first order.
 
     References
     ----------
@@ -81,8 +82,7 @@ class Stability(
         "``2 N - 4``. The links are rods without inertia about their own axes. A pin without mass reduces the number: "
         "the two links that meet there stay in line. Each end that yields adds 4 in the free frame, 2 in the driven "
         "frame. An end carried round adds 2 in the free frame, because no rotation is left out. For a cord the "
-        "slowest of infinitely many, up to the first on which two discretisations do not agree to 1e-6; most are "
-        "correct to 1e-9.",
+        "slowest of infinitely many, up to the first on which two discretisations do not agree to 1e-6.",
         heading="growth (n)",
         column="value",
         shown=lambda s: s.exponents.real,
@@ -113,11 +113,13 @@ class Stability(
         heading="with drag in air",
     )
     growth_rate: Field[float] = Field(
-        "Largest real part of the exponents, in units of the turning speed; NaN in a rotating fluid, where it is "
-        "unknown.",
+        "Largest real part of the exponents, in units of the turning speed; in a rotating fluid 0 for a minimum, NaN "
+        "for any other shape.",
         fact=True,
     )
-    margin: Field[float] = Field("The largest `exponent_error`: errors cause no growth rate above it.", fact=True)
+    margin: Field[float] = Field(
+        "Growth rate up to which the errors leave the verdict open: the largest `exponent_error`, or another bound for cords.", fact=True
+    )
     negative_directions: Field[int] = Field(
         "Number of negative directions of the energy in the turning frame, at constant angular momentum in the free "
         "frame.",
@@ -161,7 +163,10 @@ def forced(name: str) -> Callable[[Any], Any]:
     """A function that returns a force of the compiled result, times gravity if masses were given."""
 
     def compute(result: Any) -> Any:
-        value, per = getattr(result._found(), name), result._per
+        found, per = result._found(), result._per
+        if not hasattr(found, name):
+            raise UnavailableError(not_there(result, name))
+        value = getattr(found, name)
         return value if per == 1.0 else per * np.asarray(value) if isinstance(value, list) else per * value
 
     return compute
@@ -335,7 +340,7 @@ class SteadyShape(
         -------
         Place
             Arrays with the shape of `arc_length`, as accurate as those of the shape. Cost: 1 microsecond for each
-            place, 10 with a density function.
+            place, 2 with a density function.
 
         Raises
         ------
@@ -380,11 +385,11 @@ class SteadyShape(
             The stability. Accuracy: 1e-13 of the largest exponent for simple ones; with masses up to 1e16 apart 2e-13,
             on arms and springs 5e-9. `exponent_error` estimates the error of each, and a verdict within it is
             ``undecided``. Dashpots at the pins of a `Rig` (`Pin`) damp the exponents; `Stability.internal_damping` and
-            `Stability.external_damping` give the effect of a little more at the pins and of drag. Cost: ``(4 N)**3 / 2`` operations: half a
-            millisecond for twenty links, a tenth of a second for a hundred. Where double precision loses digits, twice
-            the digits are used, up to 25 links in the free frame: a hundred times as long. For cords see
-            `Stability.exponents`; the verdict is ``undecided`` if two discretisations differ in more than the growth
-            rate. Cost: 15 milliseconds for a shape without nodes, 0.3 s for one of three half waves.
+            `Stability.external_damping` give the effect of a little more at the pins and of drag. Cost: O(N^3): 0.4
+            milliseconds for twenty links, 20 for a hundred; much longer where double precision loses digits and twice
+            the digits are used. For cords see `Stability.exponents`; the verdict is ``undecided`` if two discretisations
+            differ in more than the growth rate. Cost: 6 milliseconds for a shape without nodes, 0.1 s for one of three
+            half waves.
 
         Raises
         ------

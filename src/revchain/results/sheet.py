@@ -149,7 +149,7 @@ def in_speed_unit(sheet: Sheet, unit: str | None) -> Sheet:
 
 
 def _is_period(column: Column, speeds: Any) -> bool:
-    """Whether a column has the periods of these speeds."""
+    """Return whether a column has the periods of these speeds."""
     with np.errstate(divide="ignore"):
         return bool(np.allclose(np.asarray(column.values, np.float64), 2 * math.pi / np.abs(speeds), rtol=1e-9, equal_nan=True))
 
@@ -281,7 +281,7 @@ def in_columns(sheet: Sheet, most: int = MOST_COLUMNS) -> list[Column]:
 
 
 def as_csv(sheet: Sheet) -> str:
-    """The table as CSV: one line for each row, with all digits, and a column for each pin; other arrays separated by blanks."""
+    """The table as CSV: one line for each row, with all digits; a column for each pin; other arrays separated by blanks."""
     import csv
     import io
 

@@ -79,8 +79,9 @@ def load(path: str | os.PathLike[str]) -> Result:
     Raises
     ------
     ValueError
-        If the path has another ending, or the file does not contain a result or is damaged: the checksums of ``.npz`` find every changed number.
-        If a later version saved the result and this version cannot read it; the message says which version to install.
+        If the path has another ending, or the file does not contain a result or is damaged: the checksums of ``.npz``
+        find every changed number. If a later version saved the result and this version cannot read it; the message says
+        which version to install.
     ImportError
         If a package for ``.nc`` is not installed; the message says how to install it.
     OSError

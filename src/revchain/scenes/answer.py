@@ -272,7 +272,7 @@ def notes_on(scene: Tables, question: str, table: Table, given: Given, options: 
 
 
 def is_driven_trolley(table: Any, motion: SupportMotion | None) -> bool:
-    """Whether a support that rolls freely has a prescribed motion, so that its mass and its dashpot do not matter."""
+    """Return whether a support that rolls freely has a prescribed motion, so that its mass and its dashpot do not matter."""
     if motion is None or table is UNSET or motion._what == "force":
         return False
     return table.stiffness in (UNSET, 0, 0.0) and not all(each in (UNSET, 0) for each in (table.mass, table.weight))

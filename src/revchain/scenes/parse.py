@@ -427,7 +427,7 @@ def several(key: str, value: Any) -> str:
 
 
 def _is_number(annotation: Any) -> bool:
-    """Whether the value may be a number outside a list."""
+    """Return whether the value may be a number outside a list."""
     arguments = get_args(annotation)
     inside = arguments[:1] if get_origin(annotation) is Annotated else arguments
     return annotation is float or (get_origin(annotation) not in (list, tuple) and any(map(_is_number, inside)))

@@ -153,7 +153,7 @@ def shortfall(found: Any) -> str:
 
 @dataclass(frozen=True)
 class Verdict:
-    """What is known about an answer.
+    """The verdict on an answer.
 
     Attributes
     ----------

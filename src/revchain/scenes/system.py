@@ -183,12 +183,12 @@ def _with_unit_of(number: str, other: str) -> str:
 
 
 def _are_periods(key: str, given: Sequence[Any]) -> bool:
-    """Whether both ends of a range of speeds are given as periods."""
+    """Return whether both ends of a range of speeds are given as periods."""
     return SI.get(key, ("", ""))[1] == "an angular speed" and all(speed_unit(end) == "s" for end in given)
 
 
 def is_by_mass(scene: Tables) -> bool:
-    """Whether masses stay masses: the scene has no weight, or no gravity."""
+    """Return whether masses stay masses: the scene has no weight, or no gravity."""
     if isinstance(scene.held, tables.Held) and scene.held.weightless:
         return True
     return re.search(rb'weight":', json.encode(scene)) is None  # a key: quotes inside text have a backslash
@@ -405,7 +405,7 @@ def _rig(chain: Chain | None, scene: Tables, numbers: Numbers) -> Rig | None:
 
 
 def has_air_drag(scene: Tables) -> bool:
-    """Whether a link of the scene has quadratic drag of air."""
+    """Return whether a link of the scene has quadratic drag of air."""
     whole = scene.uniform_chain if scene.tapered_chain is UNSET else scene.tapered_chain
     if not isinstance(whole, UnsetType):
         return whole.air_drag is not UNSET

@@ -333,7 +333,7 @@ class AskSwing(Table, frozen=True):
     support_acceleration: Annotated[
         Listed | UnsetType, says("Its accelerations then (m/s^2), joined by straight lines.")
     ] = UNSET
-    support_offset: Annotated[Listed | UnsetType, says("Its places then (m), joined by a spline.")] = UNSET
+    support_offset: Annotated[Listed | UnsetType, says("Its offsets then (m), joined by a spline.")] = UNSET
     support_force: Annotated[Listed | UnsetType, says("Forces on it then (N), joined by straight lines.")] = UNSET
 
 

@@ -107,7 +107,7 @@ def links_of(scene: Scene, axes: Sequence[Axis]) -> Links | None:
 
 
 def _is_answered(scene: Scene) -> bool:
-    """Whether `conical_heights` answers what the scene asks about its modes."""
+    """Return whether `conical_heights` answers what the scene asks about its modes."""
     ask, chain = scene.ask.modes, scene.system()
     if not isinstance(chain, Chain) or chain.size > MAX_LINKS or chain.mode_count < chain.size:
         return False

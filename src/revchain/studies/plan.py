@@ -296,14 +296,14 @@ def _modes_of(scene: Scene, largest: Scene, varied: bool) -> tuple[int, ...]:
 
 
 def _top_moves(rig: Any) -> bool:
-    """Whether the top pin adds a mode: it is on a spring, and has inertia. A trolley that rolls freely has no such mode."""
+    """Return whether the top pin adds a mode: it is on a spring and has inertia. A free trolley has no such mode."""
     top = rig.chain
     is_plummet = top.centroid[-1] == top.length[-1] and top.radius_of_gyration[-1] == 0 and rig.displaced is None
     return bool(0 < rig.support.stiffness < math.inf and (rig.support.carriage or not is_plummet))
 
 
 def _turns(scene: Scene) -> bool:
-    """Whether a governor is asked for its equilibria at one speed."""
+    """Return whether a governor is asked for its equilibria at one speed."""
     return not isinstance(scene.ask.equilibria, UnsetType) and scene.ask.equilibria.angular_speed is not UNSET
 
 

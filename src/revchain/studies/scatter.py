@@ -22,7 +22,7 @@ SPEEDS = ("lowest_angular_speed", "lowest_reached", "highest_reached", "highest_
 
 
 class Scatter(Table, frozen=True):
-    """What is found for random numbers beside the results of each point."""
+    """The search for extremes over random numbers, beside the results of each point."""
 
     worst: Annotated[
         bool,

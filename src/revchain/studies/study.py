@@ -329,7 +329,7 @@ def _refuse_twice(axes: tuple[Axis, ...], numbers: Numbers) -> None:
 
 
 def _refuse_two_speeds(axes: tuple[Axis, ...], find: tuple[str, ...], numbers: Numbers) -> None:
-    """Note an error if the speed of [ask.shapes] or [ask.drag] is varied while the other, which is found too, is constant."""
+    """Note an error if the speed of [ask.shapes] or [ask.drag] is varied while that of the other is constant."""
     names = ("angular_speed", "conical_height")
     speeds = {str(axis.path[1]): axis for axis in axes if axis.path[0] == "ask" and axis.path[-1] in names}
     varied = [question for question in ("shapes", "drag") if question in speeds]

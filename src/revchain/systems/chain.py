@@ -268,7 +268,7 @@ class Chain(System):
         -----
         The conical heights tend to those of the `Cord` with an error proportional to 1 / count**2; `revchain.modes`
         with `rtol` uses this. Accuracy: weights within 0.51 ulp; centroids too, for the stored length of a link.
-        Cost: 0.5 to 2 microseconds a link. Source: Greenhill (1908), section 4.
+        Cost: 0.6 microseconds a link. Source: Greenhill (1908), section 4.
 
         Examples
         --------
@@ -616,7 +616,7 @@ def like(caller: str, chain: Chain, mass: Any, weight: Any, of: str = "") -> Any
 
 
 def _whole(caller: str, mass: float | None, weight: float | None) -> tuple[bool, float]:
-    """Whether the mass of a whole chain is given, and its mass or weight; the weight is 1 if neither is given."""
+    """Return whether the mass of a whole chain is given, and its mass or weight; the weight is 1 if neither is given."""
     if mass is None and weight is None:
         return False, 1.0
     by_mass, heavy = mass_or_weight(caller, mass, weight)

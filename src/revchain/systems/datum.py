@@ -145,7 +145,7 @@ def refuse_overlap(caller: str, data: Iterable[Datum]) -> None:
 
 
 def _contains(one: str, other: str) -> bool:
-    """Whether a change of the datum `one` changes the datum `other`."""
+    """Return whether a change of the datum `one` changes the datum `other`."""
     where, _, name = other.rpartition(".")
     if one in ("mass", "weight", "length"):
         return where.startswith("links") and (name == one or (one == "length" and name in _LENGTHS))
@@ -206,7 +206,7 @@ def _of_chain(caller: str, chain: Chain, path: str, link: int | None, gravity: f
 
 
 def _is_of_length_alone(chain: Chain, link: int) -> bool:
-    """Whether the length of a link decides its centroid and radius of gyration: a point mass at its lower pin, or a rod."""
+    """Return whether the length of a link sets its centroid and inertia: a point mass at its lower pin, or a rod."""
     long, centroid, radius = (float(column[link]) for column in (chain.length, chain.centroid, chain.radius_of_gyration))
     near = 1e-12 * long
     is_rod = abs(centroid - long / 2) <= near and abs(radius - long / math.sqrt(12)) <= near

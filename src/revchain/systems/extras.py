@@ -8,7 +8,7 @@ from typing import Any
 
 
 def require(module: str, extra: str | None, purpose: str) -> Any:
-    """Import `module`; if it is missing, raise an ImportError that names the extra of revchain, or the package, to install."""
+    """Import `module`; if it is missing, raise an ImportError that names the extra or the package to install."""
     try:
         return import_module(module)
     except ModuleNotFoundError as error:

@@ -253,7 +253,7 @@ def numbers(arrays: Iterable[NDArray[Any]]) -> Iterator[Any]:
 
 
 def mass_or_weight(caller: str, mass: Any, weight: Any, of: str = "") -> tuple[bool, Any]:
-    """Whether the mass is given, and the value of mass or weight; a ValueError unless exactly one is given."""
+    """Return whether the mass is given, and the value of mass or weight; a ValueError unless exactly one is given."""
     if (mass is None) == (weight is None):
         both = "both" if mass is not None else "neither"
         raise ValueError(f"{caller}: give either {of}mass, in kg, or {of}weight, in N, got {both}")

@@ -78,7 +78,7 @@ def refuse_empty(caller: str, name: str, column: Floats) -> None:
 
 
 def _alike(one: Any, other: Any) -> bool:
-    """Whether two values are equal; a number equals an array that repeats it."""
+    """Return whether two values are equal; a number equals an array that repeats it."""
     shapes = {np.shape(one), np.shape(other)} - {()}
     return len(shapes) < 2 and bool(np.all(np.equal(one, other)))
 

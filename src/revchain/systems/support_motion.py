@@ -16,7 +16,7 @@ _CALLER = "revchain.SupportMotion"
 
 
 class SupportMotion(_Fitting):
-    """How a support is moved in time: a trolley that brakes, a ship that rolls, a shaker; or how it is pushed.
+    """A motion of the support in time (a trolley that brakes, a ship that rolls, a shaker), or a force on it.
 
     Give the times and one of the next four. Velocities, accelerations and forces are joined by straight lines, offsets by
     a cubic spline. Before the first time and after the last there is no acceleration (or force); a support that still
@@ -25,14 +25,13 @@ class SupportMotion(_Fitting):
     Parameters
     ----------
     time : array_like, shape (K,)
-        Times in s, from 0 on, ascending; at least two. Two equal times are a jump of acceleration or
-        force.
+        Times in s, not negative, ascending; at least two. Two equal times are a jump of acceleration or force.
     velocity : array_like, shape (K,), optional
         Velocities of the support, m/s. It is at 0 at the first time.
     acceleration : array_like, shape (K,), optional
         Accelerations of the support, m/s^2. It is at rest at 0 at the first time.
     offset : array_like, shape (K,), optional
-        Places of the support, m.
+        Offsets of the support, m.
     force : array_like, shape (K,), optional
         Forces on a support that yields, N, or in the unit of the weights.
     rests : bool
@@ -48,8 +47,8 @@ class SupportMotion(_Fitting):
     Notes
     -----
     A support with a spring is moved at the far end of the spring, as the ground moves under a machine. Any other, a free
-    trolley too, is moved itself. Source: C. de Boor, A Practical Guide to Splines (1978), chapter IV: complete splines, or if
-    the support does not rest at the ends not-a-knot splines.
+    trolley too, is moved itself. Source: C. de Boor, A Practical Guide to Splines (1978), chapter IV: complete splines,
+    or if the support does not rest at the ends not-a-knot splines.
 
     Examples
     --------
