@@ -61,7 +61,7 @@ struct BellAndClapper {
 };
 
 /// Both modes of a bell (upper link) and its clapper (lower link), how far they are from one piece,
-/// and the derivatives of the slower mode's ratio of inclinations. Accuracy: heights and ratios 2
+/// and the derivatives of the first mode's ratio of inclinations. Accuracy: heights and ratios 2
 /// ulp, derivatives 4 ulp of the sum of their terms' magnitudes (tests/cpp/bell.cpp). Cost O(1).
 /// Throws InvalidArgument unless there are two links, both with weight.
 /// `joint`: distance of the clapper's pin below the axle, instead of the bell's length; negative

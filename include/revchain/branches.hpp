@@ -273,11 +273,11 @@ struct ShapesOnBranch {
 ///
 /// Method: continuation along the arc (see `branch`), then Newton's method on all pins and the
 /// height in double-double, with the given number as a condition. Near the vertical it starts from
-/// the onset.
-/// Accuracy: at a given height or speed inclinations to 2.3e-16 and within `error_bound`, which is
-/// proved. Measured: 0.7 of it, for 1 to 1000 links, modes 1 to 10, from 1e-8 above the critical
-/// speed to a conical height of 1e-4 of the length (tests/cpp/finite/branch/shape_on_branch.cpp).
-/// It is checked step by step, not proved, that the shape is on this branch.
+/// the onset. Accuracy: at a given height or speed inclinations to 2.3e-16 and within
+/// `error_bound`, which is proved. Tested for 1 to 1000 links, modes 1 to 10, from 1e-8 above the
+/// critical speed to a conical height of 1e-4 of the length
+/// (tests/cpp/finite/branch/shape_on_branch.cpp). It is checked step by step, not proved, that the
+/// shape is on this branch.
 /// Cost: O(N), for 100,000 rods at twice the first critical speed 0.4 s.
 /// Throws InvalidArgument for a mode number outside 1 ... `chain.mode_count()`, unless exactly one
 /// number is given, and if it is out of its range (`tip_radius` below the length, `top_tension`

@@ -104,7 +104,7 @@ REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordModes modes(const Cord& cord, const CordModesOptions& options = {});
 
 /// The number of modes slower than a speed. Heights within `CordModes::error_bound` of the given
-/// one may be counted on either side. Cost: that of some 40 modes, with series one path. Throws
+/// one may be counted on either side. Cost: that of some modes, with series one path. Throws
 /// InvalidArgument unless exactly one of height and speed is given, positive and finite, for more
 /// than 1e15 modes, and with series for a length above 1e6 heights.
 REVCHAIN_DECLARE_ANALYTIC
@@ -138,10 +138,10 @@ struct CordSensitivity {
 /// Derivatives of the heights of the modes with respect to the data of their cord. A change dV of
 /// the weight below a point, tip included, changes
 ///     lambda = integral of y^2 dV / I   by   - integral of dV y' (2 y + lambda y') / I,
-/// where I = integral of V y'^2.
-/// Heights are proportional to the length; otherwise they depend only on ratios of weights (and
-/// tension). Accuracy: 1e-12 of the height over the datum (tests/cpp/held_cord.cpp). Cost: some 800
-/// offsets and slopes a mode; held at both ends two slopes, or 16 for each half wave.
+/// where I = integral of V y'^2. Heights are proportional to the length; otherwise they depend only
+/// on ratios of weights (and tension). Accuracy: 1e-12 of the height over the datum
+/// (tests/cpp/held_cord.cpp). Cost: that of some hundred offsets and slopes a mode. Throws
+/// InvalidArgument for a cord with a bob.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordSensitivity sensitivity(const CordModes& modes);
 
@@ -152,8 +152,7 @@ REVCHAIN_DECLARE_ANALYTIC
 /// along the curve on which crossing `mode` of the cord's path is at the support. Each step is
 /// checked, not proved (finite::BranchLineWalk). No folds exist where a theorem counts the shapes.
 /// Accuracy: points within 1e-12; heights of folds within 1e-9, relative
-/// (tests/cpp/cord_branches.cpp). Cost: some 5 paths a point, three times that with a tip or a
-/// density; see `steady_shapes` for a path.
+/// (tests/cpp/cord_branches.cpp). Cost: a few paths a point (`steady_shapes`).
 /// Throws InvalidArgument for a mode number below 1 or above 1e5, for a height not below that of
 /// the mode, for a length above 1e6 heights, and unless exactly one of height and speed is given,
 /// positive and finite.
@@ -209,9 +208,9 @@ REVCHAIN_DECLARE_ANALYTIC
 /// for the drag of still air on a piece of cord over its length and velocity, as for a chain.
 /// Accuracy: exponents to 1e-8 (measured against the modes, 1e-9 below a critical speed; with a tip
 /// to 2e-9 against chains with Richardson's extrapolation: tests/python/test_cord_branches.py).
-/// Exponents of N links differ from them as 1/N^2 (tests/cpp/cord_branches.cpp).
-/// Cost: that of a chain with 10 links a panel; each half wave has two to four panels or more: 15
-/// ms without nodes, 0.3 s for three half waves. Throws InvalidArgument if the lengths differ.
+/// Exponents of N links differ from them as 1/N^2 (tests/cpp/cord_branches.cpp). Cost: that of a
+/// chain with 10 links a panel; each half wave has two panels or more. Throws InvalidArgument if
+/// the lengths differ.
 REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Cord& cord, const CordShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);
@@ -253,8 +252,8 @@ struct CordSwing {
 /// modes, extrapolated from the decrease between modes k/2 ... k and k + 1 ... 2 k. After a kink in
 /// a cord without a tip, convergence at the free end is slow, as k^-1/2: waves meet there.
 /// Accuracy, measured against long chains (tests/cpp/cord_branches.cpp): coefficients to 1e-13 of
-/// the largest, angles to rounding, 1e-16 times the number of swings. Cost: 2 k modes at some 800
-/// arc lengths or more, 1 to 15 microseconds each.
+/// the largest, angles to rounding, 1e-16 times the number of swings. Cost: offsets of 2 k modes at
+/// several hundred arc lengths.
 /// Throws InvalidArgument unless starts are finite, continuous, of the length of `arc_length` and 0
 /// at the support, for arc lengths out of order, a count below 1 or above 1e4, gravity not positive
 /// and times not finite.

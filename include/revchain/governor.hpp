@@ -13,7 +13,7 @@
 ///     motion.least_angle();     // 0.75646 rad; the greatest angle is 1.2 rad
 ///     motion(0.3).angle;        // 0.984514 rad at 0.3 s
 ///
-/// Greenhill (1908) §7. Needs GSL. Angles in rad from the downward vertical, consistent units.
+/// Greenhill (1908) §7. Angles in rad from the downward vertical, consistent units.
 namespace revchain::inline REVCHAIN_BUILD::analytic {
 
 /// The data of the motion.

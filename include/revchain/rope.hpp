@@ -14,9 +14,9 @@
 ///     rope.tension_in_the_middle();  // 5.13717 m of rope weigh as much
 ///     rope.at(0.5).offset;           // 0.766851 m, at 0.5 m from an end
 ///
-/// Greenhill (1908) §5. Needs GSL. Units: any consistent set, angles in rad. lambda = g/n^2 is the
-/// conical height, and a tension is given as the length h of rope of this weight. Shapes depend on
-/// lambda h alone.
+/// Greenhill (1908) §5. Units: any consistent set, angles in rad. lambda = g/n^2 is the conical
+/// height, and a tension is given as the length h of rope of this weight. Shapes depend on lambda h
+/// alone.
 namespace revchain::inline REVCHAIN_BUILD::analytic {
 
 /// The data of a skipping rope. Give exactly two of: span, length, slack, sag, and the pair of

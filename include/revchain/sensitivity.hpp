@@ -134,9 +134,9 @@ REVCHAIN_DECLARE
 /// The momentum of the flywheel of the link at index `link` with which `angular_speed` is a whirl
 /// speed of some mode, all else constant. It is unique: momentum adds to the tension, and at that
 /// speed the parts below and above the link act as springs at its pins. Formed in double-double:
-/// error 1e-15, relative to the tension (tests/cpp/linear/rig_sensitivity.cpp). Cost O(N). Throws
-/// InvalidArgument for a speed that is 0 or not finite, gravity not positive, a link number out of
-/// range, and if no finite momentum has that effect.
+/// the speed has a relative error of 1e-14 (tests/cpp/linear/rig_sensitivity.cpp). Cost O(N).
+/// Throws InvalidArgument for a speed that is 0 or not finite, gravity not positive, a link number
+/// out of range, and if no finite momentum has that effect.
 REVCHAIN_DECLARE
 [[nodiscard]] double momentum_for_speed(const Rig& rig, Index link, double angular_speed,
                                         double gravity = conical_pendulum::standard_gravity);
