@@ -60,9 +60,8 @@ struct BatchOptions {
 /// to N = 100 (tests/cpp/batch.cpp): 2.8 ulp for plummets and rods, 4.2 for other links; in ten
 /// thousand random chains of 1 to 6 links, 6. Counts verify heights to 16 + N/4 ulp. Results are
 /// bitwise the same for any number of threads and any order of the chains; another `count` or
-/// processor may change last digits.
-/// Cost, all modes, N = 10: 0.24 microseconds for plummets, 0.36 for rods (bench/batch.cpp).
-/// Memory: the result, and a few numbers for each link of 16 chains a thread.
+/// processor may change last digits. Cost: 0.4 microseconds for all modes of ten links. Memory: the
+/// result, and a few numbers for each link of 16 chains a thread.
 /// Throws InvalidArgument, first of all, for a number that `Chain` refuses, naming chain, link and
 /// value. Also throws for an empty batch, a count below 1 or beyond the modes of some chain, a
 /// negative number of threads, and a chain whose heights cannot be proved to half the digits of T.

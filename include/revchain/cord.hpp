@@ -51,8 +51,8 @@ struct CordModes {
     ModeRange range() const { return {first, size()}; }
     /// Offset of the mode at index j at arc length s, divided by that of the free end. For a cord
     /// held at both ends it is divided by the largest offset, which is at the lowest vertical
-    /// point. Throws InvalidArgument for s not in 0 ... length. Cost: 1 to 15 microseconds, 100
-    /// with a density function; for a vector of s much less each.
+    /// point. Throws InvalidArgument for s not in 0 ... length. Cost: 0.1 to 2 microseconds for
+    /// each of many s; a single s costs more.
     [[nodiscard]] double offset(Index j, double s) const;
     [[nodiscard]] Vector<double> offset(Index j, const Vector<double>& s) const;
     /// d offset / ds, -1 / lambda at a free end without a bob; at a particle, above it. Throws and
@@ -96,7 +96,7 @@ struct CordModesOptions {
 /// times the relative change of the height by that of a particle's place, the largest: 1e-14 as a
 /// rule (10,000 cords with weights 1e16 apart, tests/cpp/cord_particles.cpp). Offsets and slopes
 /// are within 1e-15 times the mode number of the largest one, with series within 1e-14. Cost: a
-/// closed form takes 0.01 to 15 microseconds a mode; power series take 1 ms for each mode up to the
+/// closed form takes about a microsecond a mode; power series take 1 ms for each mode up to the
 /// last one requested. Throws InvalidArgument as `modes` of a chain, for `all_modes` (there are
 /// infinitely many), and with series for modes above number 1e5, a density too rough or a tip too
 /// heavy.

@@ -81,9 +81,8 @@ struct Stability {
 /// shapes of up to 50 links are computed with twice the digits if `thorough` is given, or in
 /// programs that link revchain::compiled. With masses 1e16 apart errors are then at most 2e-13 of
 /// the largest in the tests, on arms and springs 5e-9, because the shape is given in double
-/// (tests/python/test_light_links.py).
-/// Cost (4 N)^3/2: 0.5 ms for 20 links, 4 ms for 40; less if every motion out of the plane has
-/// positive energy, 100 times as much with twice the digits.
+/// (tests/python/test_light_links.py). Cost: O(N^3), 0.5 ms for 20 links and 3 ms for 40; less if
+/// every motion out of the plane has positive energy, much more with twice the digits.
 /// Throws InvalidArgument if numbers or lengths of links differ (weights are not compared); without
 /// `thorough` also if rounding leaves in doubt whether every motion moves mass.
 REVCHAIN_DECLARE
@@ -96,9 +95,9 @@ REVCHAIN_DECLARE
 /// Returns the stability of a shape with both ends held. Firm ends are fixed; ends on springs move
 /// across the axis. N links have 4 N - 8 exponents if free, 2 N - 4 if driven, with or without
 /// gravity; each end on a spring adds 4, or 2. Arms turn at constant speed: between ends off the
-/// axis no rotation is removed, which adds 2 exponents if free.
-/// Accuracy: simple exponents to 1e-13 of the largest (tests/cpp/finite/stability/held.cpp). Cost
-/// (4 N)^3/2. Throws InvalidArgument as above, and for a massless moving pin below the upper end.
+/// axis no rotation is removed, which adds 2 exponents if free. Accuracy: simple exponents to 1e-13
+/// of the largest (tests/cpp/finite/stability/held.cpp). Cost: O(N^3). Throws InvalidArgument as
+/// above, and for a massless moving pin below the upper end.
 REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Chain<double>& chain, const HeldShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);
