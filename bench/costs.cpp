@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The costs that the comments of public headers state: CPU time of calls, the shortest of several. A line for each: name,
-// time, in the unit that the header counts (a link, a mode, a point ...). `bench_costs TEXT` prints the lines with TEXT.
-// tests/claims/headers.toml compares the lines with the sentences.
+// The costs that the comments of public headers state: CPU time of calls, the shortest of several. Each line has a name
+// and a time, in the unit that the header counts (a link, a mode, a point ...). `bench_costs TEXT` prints the lines with
+// TEXT. tests/claims/headers.toml compares the lines with the sentences.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -207,7 +207,8 @@ void shapes() {
     for (const Index n : {20, 40}) {
         const auto chain = plummets(n);
         const auto shape = revchain::steady_shape(chain, {.conical_height = 0.5 * static_cast<double>(n)});
-        cost("stability: " + std::to_string(n) + " links", 1, [&] { return revchain::stability(chain, shape, thorough).growth_rate; });
+        cost("stability: " + std::to_string(n) + " links", 1,
+             [&] { return revchain::stability(chain, shape, thorough).growth_rate; });
     }
 }
 
@@ -245,8 +246,6 @@ void closed_forms() {
     const auto bell = revchain::bell_and_clapper(Chain<double>({clapper, body}));
     cost("bell: first_strike", 1,
          [&] { return revchain::first_strike(bell, {.clearance = 0.4, .amplitude = 1.5}).time; });
-    cost("bell: first_strike, full circle", 1,
-         [&] { return revchain::first_strike(bell, {.clearance = 0.4}).time; });
     const revchain::Carriages carriages{
         .front_mass = 20e3, .rear_mass = 20e3, .buffer_stiffness = 2e6, .coupling_stiffness = 0.5e6, .speed = 2.0};
     const revchain::BufferImpact impact(carriages);
@@ -260,7 +259,10 @@ void closed_forms() {
     revchain::analytic::Governor data{
         .angular_speed = 6.0, .pendulum_length = 0.5, .gravity = 9.80665, .angle = 1.2};
     const revchain::analytic::GovernorMotion motion(data);
-    cost("governor: construct", 1, [&] { data.angle = 1.2 + half; return revchain::analytic::GovernorMotion(data).period(); });
+    cost("governor: construct", 1, [&] {
+        data.angle = 1.2 + half;
+        return revchain::analytic::GovernorMotion(data).period();
+    });
     cost("governor: time", 1, [&] { return motion(half).angle; });
     const revchain::SleeveGovernor watt(
         {.ball_mass = 4, .arm = 1.4, .lower_arm = 1.4, .sleeve_mass = 3, .gravity = 12});
@@ -268,13 +270,19 @@ void closed_forms() {
     cost("sleeve_governor: equilibria", 1, [&] { return watt.equilibria(5.0).size(); });
     revchain::analytic::RopeGiven given{.span = 2.0, .length = 3.0, .angular_speed = 10.0};
     const revchain::analytic::SkippingRope rope(given);
-    cost("rope: construct", 1, [&] { given.length = 2.5 + half; return revchain::analytic::SkippingRope(given).sag(); });
+    cost("rope: construct", 1, [&] {
+        given.length = 2.5 + half;
+        return revchain::analytic::SkippingRope(given).sag();
+    });
     cost("rope: point", 1, [&] { return rope.at(half).offset; });
     cost("rope: point by arc", 1, [&] { return rope.at_arc(half).offset; });
     revchain::analytic::TortuousGiven wound{
         .least_radius = 0.3, .greatest_radius = 1.0, .angular_speed = 10.0, .tension = 3.0};
     const revchain::analytic::TortuousRope tortuous(wound);
-    cost("rope: construct tortuous", 1, [&] { wound.tension = 2.5 + half; return revchain::analytic::TortuousRope(wound).half_wave(); });
+    cost("rope: construct tortuous", 1, [&] {
+        wound.tension = 2.5 + half;
+        return revchain::analytic::TortuousRope(wound).half_wave();
+    });
     cost("rope: point of tortuous", 1, [&] { return tortuous.at(half).radius; });
 }
 

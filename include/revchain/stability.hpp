@@ -81,7 +81,7 @@ struct Stability {
 /// shapes of up to 50 links are computed with twice the digits if `thorough` is given, or in
 /// programs that link revchain::compiled. With masses 1e16 apart errors are then at most 2e-13 of
 /// the largest in the tests, on arms and springs 5e-9, because the shape is given in double
-/// (tests/python/test_light_links.py). Cost: O(N^3), 0.5 ms for 20 links and 3 ms for 40; less if
+/// (tests/python/test_light_links.py). Cost: O(N^3), 0.4 ms for 20 links and 2 ms for 40; less if
 /// every motion out of the plane has positive energy, much more with twice the digits.
 /// Throws InvalidArgument if numbers or lengths of links differ (weights are not compared); without
 /// `thorough` also if rounding leaves in doubt whether every motion moves mass.
