@@ -383,10 +383,6 @@ def ratios(r, jobs, sizes):
     return [float(row["ratio"]) for job in jobs for n in sizes for row in r.rows("ordinary", job=job, N=n)]
 
 
-def engine(r, chain, n, method, column="heights_us"):
-    return r.value("engines", column, chain=chain, N=n, method=method)
-
-
 def near(value, *stated, factor=1.5):
     return min(stated) / factor <= value <= max(stated) * factor
 
@@ -439,19 +435,12 @@ HOLDS = (
         if row["cutting"] in ("rods", "l = a", "l = a/2", "l = 5a/6"))),
     Holds("include/revchain/explain.hpp", "predicted times were within a factor of 3 of measured times",
           lambda r: r.said("models", r"(\d+) of \d+ predictions")[0] == "0"),
-    Holds("include/revchain/batch.hpp", "0.2 microseconds for plummets, 0.35 for rods (bench/batch.cpp)", lambda r: near(
-        r.value("batch", "us", kind="plummets", N=10), 0.2) and near(r.value("batch", "us", kind="rods", N=10), 0.35)),
     Holds("include/revchain/finite/cord/continuous_chain.hpp", "length/height 500 take 1.8 ms (bench/continuous.cpp)",
           lambda r: near(r.value("continuous", "milliseconds", method="revchain"), 1.8)),
     Holds("include/revchain/models/finite_amplitude.hpp", "(bench_tradeoff: 5 to 1000 links, within a factor of 1.6)",
           lambda r: all(near(float(row["took_us"]) / int(row["links"]) / int(row["modes"]), 8, factor=1.6)
                         for row in r.rows("tradeoff", model="finite amplitude")
                         if row["took_us"] and int(row["links"]) > 2)),
-    Holds("include/revchain/methods.hpp", "all modes of 1000 links in 7 ms instead of 32 (bench_engines)",
-          lambda r: near(engine(r, "random plummets", 1000, "automatic"), 7000)
-          and near(engine(r, "random plummets", 1000, "bisection"), 32000)),
-    Holds("include/revchain/response.hpp", "10 to 40 ns for each link and speed", lambda r: all(
-        near(float(row["ns per link and speed"]), 10, 40) for row in r("response"))),
 )
 
 

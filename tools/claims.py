@@ -13,6 +13,7 @@ with one of these checks:
 equals    number as written: Python expression, which must round to the number at the digits written
 holds     a Python expression that must be true; what it compared is printed
 cost      time as written: Python statement, which must take that time within a factor of 2 (or that range)
+measured  time as written: name of a line that the command `measure` of the file prints, with the same tolerance
 test      tests that show it: "tests/cpp/bell.cpp: first blows" or "tests/python/test_fit.py: test_name"
 run, says a command, and a regular expression that must be found in what it prints
 source    where a fact from elsewhere is stated
@@ -36,7 +37,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 ROOT = Path(__file__).resolve().parent.parent
-CHECKS = "equals", "holds", "cost", "test", "run", "source"
+CHECKS = "equals", "holds", "cost", "measured", "test", "run", "source"
 QUANTITIES = (
     r"ulp|%|per ?cent|(?:micro|milli|nano)?seconds?\b|[µmn]s\b|min(?:utes)?\b|hours?\b|[KMG]B\b|bytes\b|times\b|random\b"
     r"|cases\b|lines\b|digits\b"
@@ -215,6 +216,20 @@ def seconds_of(statement: str, names: dict[str, Any]) -> float:
     return best
 
 
+@cache
+def measured(root: Path, command: str) -> dict[str, float]:
+    """Seconds by name: the lines NAME, tab, TIME that a command prints, which is run once."""
+    done = subprocess.run(command, shell=True, cwd=root, capture_output=True, text=True, check=True)
+    lines = (line.rpartition("\t") for line in done.stdout.splitlines())
+    return {name: numbers_in(took)[0] for name, tab, took in lines if tab}
+
+
+def as_long(written: str, took: float) -> bool:
+    """Whether a time is the one written, or in the range written, within a factor of 2."""
+    low, high = numbers_in(written)
+    return low / 2 <= took <= high * 2
+
+
 def test_exists(root: Path, test: str) -> bool:
     file, _, name = test.partition(": ")
     path = root / file
@@ -239,7 +254,7 @@ def check(claim: dict[str, Any], names: dict[str, Any], root: Path, run: bool) -
         return Result(not missing, f"no such test: {', '.join(missing)}" if missing else "test")
     if "source" in claim:
         return Result(True, claim["source"])
-    if not run and (claim.get("long") or "cost" in claim or "run" in claim):
+    if not run and (claim.get("long") or {"cost", "measured", "run"} & claim.keys()):
         return Result(True, "by --run")
     names = dict(names)
     if "given" in claim:
@@ -253,10 +268,13 @@ def check(claim: dict[str, Any], names: dict[str, Any], root: Path, run: bool) -
         parts = [tree.left, *tree.comparators] if isinstance(tree, ast.Compare) else [tree]
         says = " ".join(shown(eval(ast.unparse(part), names)) for part in parts if not isinstance(part, ast.Constant))
         return Result(bool(eval(claim["holds"], names)), says)
-    if "cost" in claim:
-        took = {written: seconds_of(code, names) for written, code in claim["cost"].items()}
-        good = all(numbers_in(written)[0] / 2 <= value <= numbers_in(written)[1] * 2 for written, value in took.items())
-        return Result(good, ", ".join(f"{value:.2g} s" for value in took.values()))
+    if "cost" in claim or "measured" in claim:
+        if "cost" in claim:
+            took = [(written, seconds_of(code, names)) for written, code in claim["cost"].items()]
+        else:
+            found = measured(root, names["measure"])
+            took = [(written, found[name]) for written, name in claim["measured"].items()]
+        return Result(all(as_long(*each) for each in took), ", ".join(f"{value:.2g} s" for _, value in took))
     done = subprocess.run(claim["run"], shell=True, cwd=root, capture_output=True, text=True)
     match = re.search(claim["says"], done.stdout + done.stderr, re.S)
     return Result(bool(match), " ".join(match[0].split()) if match else "not printed: " + claim["says"])
@@ -288,7 +306,7 @@ def names_of(register: dict[str, Any]) -> dict[str, Any]:
     import revchain
 
     names: dict[str, Any] = {name: getattr(math, name) for name in dir(math) if not name.startswith("_")}
-    names |= {"rc": revchain, "np": numpy, "mp": mpmath, "g": 9.80665, "ROOT": ROOT}
+    names |= {"rc": revchain, "np": numpy, "mp": mpmath, "g": 9.80665, "ROOT": ROOT, "measure": register.get("measure")}
     exec(register.get("setup", ""), names)
     return names
 

@@ -56,15 +56,12 @@ struct BatchOptions {
 ///
 /// Method: in float and double, one chain to a SIMD lane (pencil/batch/spectrum.hpp). `modes`
 /// solves the other chains one by one: those for which the lanes prove nothing, those with massless
-/// links or centroids at or above the pin, and all chains in other scalars.
-/// Accuracy: 2.8 ulp for plummets and rods up to N = 100. In a million chains of all kinds of 1 to
-/// 6 links, 29 heights had errors above 4 ulp, at most 4.8. All had weights spanning 1e12 or a link
-/// with its mass at one point between its pins. With such masses errors reached 7 ulp for 40 to 100
-/// links (80 chains). Counts verify heights to 16 + N/4 ulp. Results are bitwise the same for any
-/// number of threads and any order of the chains; another `count` or processor may change last
-/// digits.
-/// Cost, all modes, N = 10: 0.2 microseconds for plummets, 0.35 for rods (bench/batch.cpp).
-/// Memory: the result, and a few numbers for each link of 16 chains a thread.
+/// links or centroids at or above the pin, and all chains in other scalars. Accuracy, measured up
+/// to N = 100 (tests/cpp/batch.cpp): 2.8 ulp for plummets and rods, 4.2 for other links; in ten
+/// thousand random chains of 1 to 6 links, 6. Counts verify heights to 16 + N/4 ulp. Results are
+/// bitwise the same for any number of threads and any order of the chains; another `count` or
+/// processor may change last digits. Cost: 0.4 microseconds for all modes of ten links. Memory: the
+/// result, and a few numbers for each link of 16 chains a thread.
 /// Throws InvalidArgument, first of all, for a number that `Chain` refuses, naming chain, link and
 /// value. Also throws for an empty batch, a count below 1 or beyond the modes of some chain, a
 /// negative number of threads, and a chain whose heights cannot be proved to half the digits of T.

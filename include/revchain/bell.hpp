@@ -61,7 +61,7 @@ struct BellAndClapper {
 };
 
 /// Both modes of a bell (upper link) and its clapper (lower link), how far they are from one piece,
-/// and the derivatives of the slower mode's ratio of inclinations. Accuracy: heights and ratios 2
+/// and the derivatives of the first mode's ratio of inclinations. Accuracy: heights and ratios 2
 /// ulp, derivatives 4 ulp of the sum of their terms' magnitudes (tests/cpp/bell.cpp). Cost O(1).
 /// Throws InvalidArgument unless there are two links, both with weight.
 /// `joint`: distance of the clapper's pin below the axle, instead of the bell's length; negative
@@ -118,8 +118,8 @@ struct Strike {
 /// The first blow of the clapper in a swing of the bell up to its next turn. A clapper that rests
 /// on a side of the bell moves with it while the bell pushes it, then flies free. Angles count from
 /// the lowest position of the bell, inverted or not; if one of the two bodies is inverted, the
-/// clapper points the other way in the middle of the bell. Throws InvalidArgument for angles out
-/// of range. Cost: 1 ms.
+/// clapper points the other way in the middle of the bell. Throws InvalidArgument for angles out of
+/// range. Cost: 0.1 ms.
 [[nodiscard]] Strike first_strike(const BellAndClapper<double>& bell, const StrikeStart& start);
 
 }  // namespace revchain

@@ -122,15 +122,15 @@ struct RigBranchOptions {
 /// every fold until it first reaches the conical height or speed given.
 ///
 /// Method: pseudo-arclength continuation of all pins at once with tridiagonal elements, in double.
-/// Each step is checked: see finite::BranchWalk.
-/// Accuracy: points about 1e-12 (measured: tests/cpp/finite/branch/shape_on_branch.cpp), `shape` in
-/// double-double; folds are located to 1e-6 of the arc, their heights to 1e-13, mostly an ulp. If
-/// the requested part is inclined by less than 1e-3 rad, it has two points. They are the vertical
-/// and the end by the asymptotic law of the onset, balanced in double-double. If double cannot tell
-/// that end from the vertical, the vertical is the only point (`stuck`).
-/// Cost: 4 to 7 O(N) Newton steps a point, 0.1 microseconds a link each; 3 N numbers a point.
-/// Throws InvalidArgument for a mode number outside 1 ... `chain.mode_count()`, unless exactly one
-/// of height and speed is given, positive and finite, and for a height not below that of the mode.
+/// Each step is checked: see finite::BranchWalk. Accuracy: points about 1e-12 (measured:
+/// tests/cpp/finite/branch/shape_on_branch.cpp), `shape` in double-double; folds are located to
+/// 1e-6 of the arc, their heights to 1e-13, mostly an ulp. If the requested part is inclined by
+/// less than 1e-3 rad, it has two points. They are the vertical and the end by the asymptotic law
+/// of the onset, balanced in double-double. If double cannot tell that end from the vertical, the
+/// vertical is the only point (`stuck`). Cost: 0.4 microseconds a link and point; 3 N numbers a
+/// point. Throws InvalidArgument for a mode number outside 1 ... `chain.mode_count()`, unless
+/// exactly one of height and speed is given, positive and finite, and for a height not below that
+/// of the mode.
 REVCHAIN_DECLARE
 [[nodiscard]] Branch branch(const Chain<double>& chain, const BranchOptions& options);
 
@@ -158,7 +158,7 @@ struct DiagramOptions {
     int lists = 16;           ///< heights, evenly spaced in the logarithm, with a proved list
     long budget = 3'000'000;  ///< of each list, see SteadyShapesOptions
     long proof_budget =
-        1'000'000;  ///< link evaluations in the proof, 0.1 to 1 us each; with `thorough`
+        1'000'000;  ///< link evaluations in the proof; with `thorough`
     double gravity = conical_pendulum::standard_gravity;  ///< for speeds and flywheels
 };
 
@@ -197,14 +197,11 @@ struct Branches {
 /// lies on an isolated branch, which is followed from it both ways. `consistent` is true if all
 /// lists are proved complete and every shape in them is met once. With `thorough` as the last
 /// argument, or revchain::compiled, finite::DiagramProver then sets `complete`: it proves that no
-/// loop opens and closes between two of the heights, or finds it.
-/// `complete` is false if the budget of the proof is used up, or if links could hang at several
-/// inclinations; `remark` names the heights. The proof shows where branches are. It is checked, not
-/// proved, that a computed branch is one of them (see finite::BranchWalk).
-/// Accuracy: as `branch`.
-/// Cost: down to 1/200 of the length, 4 to 8 ms for three links, 15 ms for five, 30 ms for six.
-/// Eight equal plummets to 5 sqrt(g/a) take 0.1 s, twenty rods of 1 m in all to 20 rad/s 0.05 s
-/// (with AVX-512; with SSE2 up to twice as long).
+/// loop opens and closes between two of the heights, or finds it. `complete` is false if the budget
+/// of the proof is used up, or if links could hang at several inclinations; `remark` names the
+/// heights. The proof shows where branches are. It is checked, not proved, that a computed branch
+/// is one of them (see finite::BranchWalk). Accuracy: as `branch`. Cost with `thorough`: down to
+/// 1/200 of the length, 5 ms for three equal plummets and 50 ms for six.
 /// Throws InvalidArgument unless one of height and speed is given, positive and finite, and `lists`
 /// >= 1; without `thorough` also for links that stand or may hang at several inclinations.
 REVCHAIN_DECLARE
@@ -273,12 +270,11 @@ struct ShapesOnBranch {
 ///
 /// Method: continuation along the arc (see `branch`), then Newton's method on all pins and the
 /// height in double-double, with the given number as a condition. Near the vertical it starts from
-/// the onset.
-/// Accuracy: at a given height or speed inclinations to 2.3e-16 and within `error_bound`, which is
-/// proved. Measured: 0.7 of it, for 1 to 1000 links, modes 1 to 10, from 1e-8 above the critical
-/// speed to a conical height of 1e-4 of the length (tests/cpp/finite/branch/shape_on_branch.cpp).
-/// It is checked step by step, not proved, that the shape is on this branch.
-/// Cost: O(N), for 100,000 rods at twice the first critical speed 0.4 s.
+/// the onset. Accuracy: at a given height or speed inclinations to 2.3e-16 and within
+/// `error_bound`, which is proved. Tested for 1 to 1000 links, modes 1 to 10, from 1e-8 above the
+/// critical speed to a conical height of 1e-4 of the length
+/// (tests/cpp/finite/branch/shape_on_branch.cpp). It is checked step by step, not proved, that the
+/// shape is on this branch. Cost: O(N), for 100,000 rods at twice the first critical speed 0.7 s.
 /// Throws InvalidArgument for a mode number outside 1 ... `chain.mode_count()`, unless exactly one
 /// number is given, and if it is out of its range (`tip_radius` below the length, `top_tension`
 /// above the weight), or is not reached. Also throws for a `min_conical_height` not below the

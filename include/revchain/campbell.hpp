@@ -54,7 +54,7 @@ struct Campbell {
 /// two speeds, its zero is found by interpolation; a sign that changes in a jump is not a crossing.
 /// Two crossings between neighbouring speeds are not seen. Accuracy: that of the exponents, 1e-13
 /// of the largest; crossings 1e-12 (tests/cpp/campbell.cpp). Cost: a list of shapes and a stability
-/// at each speed, and ten times as much for each crossing. Throws InvalidArgument unless there are
+/// at each speed, and at several speeds for each crossing. Throws InvalidArgument unless there are
 /// two speeds or more, positive, finite and ascending, all orders and `half_waves` at least 1, and
 /// a shape at some speed; and as `steady_shapes` and `stability`. Source: W. Campbell, Trans. ASME
 /// 46 (1924).

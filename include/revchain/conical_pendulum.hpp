@@ -19,10 +19,10 @@
 ///     p.tension;                                             // 2 times the weight
 ///
 /// Greenhill (1908) §1. A conical pendulum of height lambda turns with the angular speed n = sqrt(g
-/// / lambda); lambda is the conical height of that speed. Gravity g enters the library in
-/// `revchain::conical_pendulum` only; everything else is a length or a ratio of weights. Units: any
-/// consistent set, angles in rad. Functions are O(1) and throw InvalidArgument unless arguments are
-/// positive and finite.
+/// / lambda); lambda is the conical height of that speed. Modes and shapes of a chain depend on
+/// lengths and ratios of weights only; gravity g converts their conical heights to speeds. Units:
+/// any consistent set, angles in rad. Functions are O(1) and throw InvalidArgument unless arguments
+/// are positive and finite.
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// Direction of rotation: positive or negative angular speed. It matters to flywheels only.
@@ -217,7 +217,7 @@ struct CarriedInclinations {
 /// radius b: lambda tan d = b + l sin d, §1 (9). One is always outwards. Two more are inwards if
 /// lambda < l and b^(2/3) <= l^(2/3) - lambda^(2/3); one of these is unstable. Accuracy: 4 ulp,
 /// times 1 / (1 - (cos d_meet / cos d)^3) near the inclination d_meet at which the inner two meet.
-/// Cost: a microsecond. Also throws InvalidArgument if the tangent of an inclination overflows.
+/// Cost: 0.3 microseconds. Also throws InvalidArgument if the tangent of an inclination overflows.
 template <Real T>
 [[nodiscard]] CarriedInclinations<T> carried_inclinations(const T& length, const T& height,
                                                           const T& radius);

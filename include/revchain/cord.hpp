@@ -51,8 +51,8 @@ struct CordModes {
     ModeRange range() const { return {first, size()}; }
     /// Offset of the mode at index j at arc length s, divided by that of the free end. For a cord
     /// held at both ends it is divided by the largest offset, which is at the lowest vertical
-    /// point. Throws InvalidArgument for s not in 0 ... length. Cost: 1 to 15 microseconds, 100
-    /// with a density function; for a vector of s much less each.
+    /// point. Throws InvalidArgument for s not in 0 ... length. Cost: 0.1 to 2 microseconds for
+    /// each of many s; a single s costs more.
     [[nodiscard]] double offset(Index j, double s) const;
     [[nodiscard]] Vector<double> offset(Index j, const Vector<double>& s) const;
     /// d offset / ds, -1 / lambda at a free end without a bob; at a particle, above it. Throws and
@@ -96,7 +96,7 @@ struct CordModesOptions {
 /// times the relative change of the height by that of a particle's place, the largest: 1e-14 as a
 /// rule (10,000 cords with weights 1e16 apart, tests/cpp/cord_particles.cpp). Offsets and slopes
 /// are within 1e-15 times the mode number of the largest one, with series within 1e-14. Cost: a
-/// closed form takes 0.01 to 15 microseconds a mode; power series take 1 ms for each mode up to the
+/// closed form takes about a microsecond a mode; power series take 1 ms for each mode up to the
 /// last one requested. Throws InvalidArgument as `modes` of a chain, for `all_modes` (there are
 /// infinitely many), and with series for modes above number 1e5, a density too rough or a tip too
 /// heavy.
@@ -104,7 +104,7 @@ REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordModes modes(const Cord& cord, const CordModesOptions& options = {});
 
 /// The number of modes slower than a speed. Heights within `CordModes::error_bound` of the given
-/// one may be counted on either side. Cost: that of some 40 modes, with series one path. Throws
+/// one may be counted on either side. Cost: that of some modes, with series one path. Throws
 /// InvalidArgument unless exactly one of height and speed is given, positive and finite, for more
 /// than 1e15 modes, and with series for a length above 1e6 heights.
 REVCHAIN_DECLARE_ANALYTIC
@@ -138,10 +138,10 @@ struct CordSensitivity {
 /// Derivatives of the heights of the modes with respect to the data of their cord. A change dV of
 /// the weight below a point, tip included, changes
 ///     lambda = integral of y^2 dV / I   by   - integral of dV y' (2 y + lambda y') / I,
-/// where I = integral of V y'^2.
-/// Heights are proportional to the length; otherwise they depend only on ratios of weights (and
-/// tension). Accuracy: 1e-12 of the height over the datum (tests/cpp/held_cord.cpp). Cost: some 800
-/// offsets and slopes a mode; held at both ends two slopes, or 16 for each half wave.
+/// where I = integral of V y'^2. Heights are proportional to the length; otherwise they depend only
+/// on ratios of weights (and tension). Accuracy: 1e-12 of the height over the datum
+/// (tests/cpp/held_cord.cpp). Cost: that of some hundred offsets and slopes a mode. Throws
+/// InvalidArgument for a cord with a bob.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordSensitivity sensitivity(const CordModes& modes);
 
@@ -152,8 +152,7 @@ REVCHAIN_DECLARE_ANALYTIC
 /// along the curve on which crossing `mode` of the cord's path is at the support. Each step is
 /// checked, not proved (finite::BranchLineWalk). No folds exist where a theorem counts the shapes.
 /// Accuracy: points within 1e-12; heights of folds within 1e-9, relative
-/// (tests/cpp/cord_branches.cpp). Cost: some 5 paths a point, three times that with a tip or a
-/// density; see `steady_shapes` for a path.
+/// (tests/cpp/cord_branches.cpp). Cost: a few paths a point (`steady_shapes`).
 /// Throws InvalidArgument for a mode number below 1 or above 1e5, for a height not below that of
 /// the mode, for a length above 1e6 heights, and unless exactly one of height and speed is given,
 /// positive and finite.
@@ -209,9 +208,9 @@ REVCHAIN_DECLARE_ANALYTIC
 /// for the drag of still air on a piece of cord over its length and velocity, as for a chain.
 /// Accuracy: exponents to 1e-8 (measured against the modes, 1e-9 below a critical speed; with a tip
 /// to 2e-9 against chains with Richardson's extrapolation: tests/python/test_cord_branches.py).
-/// Exponents of N links differ from them as 1/N^2 (tests/cpp/cord_branches.cpp).
-/// Cost: that of a chain with 10 links a panel; each half wave has two to four panels or more: 15
-/// ms without nodes, 0.3 s for three half waves. Throws InvalidArgument if the lengths differ.
+/// Exponents of N links differ from them as 1/N^2 (tests/cpp/cord_branches.cpp). Cost: that of a
+/// chain with 10 links a panel; each half wave has two panels or more. Throws InvalidArgument if
+/// the lengths differ.
 REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Cord& cord, const CordShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);
@@ -253,8 +252,8 @@ struct CordSwing {
 /// modes, extrapolated from the decrease between modes k/2 ... k and k + 1 ... 2 k. After a kink in
 /// a cord without a tip, convergence at the free end is slow, as k^-1/2: waves meet there.
 /// Accuracy, measured against long chains (tests/cpp/cord_branches.cpp): coefficients to 1e-13 of
-/// the largest, angles to rounding, 1e-16 times the number of swings. Cost: 2 k modes at some 800
-/// arc lengths or more, 1 to 15 microseconds each.
+/// the largest, angles to rounding, 1e-16 times the number of swings. Cost: offsets of 2 k modes at
+/// several hundred arc lengths.
 /// Throws InvalidArgument unless starts are finite, continuous, of the length of `arc_length` and 0
 /// at the support, for arc lengths out of order, a count below 1 or above 1e4, gravity not positive
 /// and times not finite.

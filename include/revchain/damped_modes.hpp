@@ -59,9 +59,9 @@ struct DampedModes {
 /// Rayleigh quotient in two words, O(N). All vectors together, which are orthogonal with respect to
 /// the first-order form, give discs that hold one exponent each (Gershgorin): proved bounds.
 /// Without inertia at a pin, and for exponents that cannot be told apart (critical damping), the
-/// bound is infinite and `error_estimate` has the size of the last correction.
-/// Accuracy measured (tests/cpp/damped_modes.cpp): within 1 ulp of the exact exponents of the stored
-/// numbers. Cost O(N^3).
+/// bound is infinite and `error_estimate` has the size of the last correction. Accuracy: every
+/// exponent is within `error_bound`, which is usually below 1e-15 (tests/cpp/damped_modes.cpp).
+/// Cost O(N^3).
 /// Throws InvalidArgument for mode numbers below 1, gravity not positive, more than 1000 links, a
 /// fluid that turns, and numbers too far apart for the first-order form.
 REVCHAIN_DECLARE

@@ -42,8 +42,8 @@ struct ExplainOptions {
 
 /// Returns the method that `modes` of a chain tries first. No mode is computed. If that method
 /// cannot prove its bound for this chain, `modes` takes the next one; `Modes::method` names the
-/// method used. Accuracy: each method meets its error bound; predicted times were within a factor
-/// of 3 of measured times (bench/models.cpp). Cost: a few microseconds. Throws as `modes`.
+/// method used. Each method meets its error bound; bench/models.cpp compares predicted with
+/// measured times. Throws as `modes`.
 REVCHAIN_DECLARE
 [[nodiscard]] Explanation explain(const Chain<double>& chain, const ExplainOptions& options = {});
 

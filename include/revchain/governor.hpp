@@ -13,7 +13,7 @@
 ///     motion.least_angle();     // 0.75646 rad; the greatest angle is 1.2 rad
 ///     motion(0.3).angle;        // 0.984514 rad at 0.3 s
 ///
-/// Greenhill (1908) §7. Needs GSL. Angles in rad from the downward vertical, consistent units.
+/// Greenhill (1908) §7. Angles in rad from the downward vertical, consistent units.
 namespace revchain::inline REVCHAIN_BUILD::analytic {
 
 /// The data of the motion.
@@ -51,10 +51,10 @@ struct GovernorState {
 ///
 /// Method: with tau = tan(theta/2), 4 tau'^2 = e + 2 b tau^2 + f tau^4, where e and f are the
 /// squares of theta' at the bottom and at the top. kappa and kappa' follow from e, f and b without
-/// a difference, also near the separatrices.
-/// Accuracy: 1e-14 (|theta| + |t theta'|), and as much of theta', unless e or f is lost in
-/// rounding: the start gives them to 1e-16 (theta'^2 + n^2 + |g/l|). Pendulum lengths near the
-/// conical height are resolved to their last digit. Cost: a microsecond to construct, 0.2 a time.
+/// a difference, also near the separatrices. Accuracy: 1e-14 (|theta| + |t theta'|), and as much of
+/// theta', unless e or f is lost in rounding: the start gives them to 1e-16 (theta'^2 + n^2 +
+/// |g/l|). Pendulum lengths near the conical height are resolved to their last digit. Cost: 0.4
+/// microseconds to construct, 60 ns a time.
 class GovernorMotion {
    public:
     /// Throws InvalidArgument for numbers that are not finite, a pendulum length that is not

@@ -88,7 +88,7 @@ struct HeldShapesOptions {
     double gravity = conical_pendulum::standard_gravity;  ///< along the axis, with `angular_speed`
     int max_half_waves = 1;                               ///< largest number of half waves
     bool prove = true;      ///< of a chain: whether error bounds and completeness are proved
-    long budget = 300'000;  ///< link evaluations of that, 1 to 2 microseconds each
+    long budget = 300'000;  ///< link evaluations of these proofs
 };
 
 /// The speed of the shapes of a held cord, and their largest number of half waves. Shapes are not
@@ -127,19 +127,15 @@ struct HeldCordShapesOptions {
 /// Newton's method in double-double; Krawczyk's test in intervals of double-double proves the
 /// bound. Completeness is proved by splitting all pulls along the lowest link and all its
 /// inclinations until each part has exactly one shape or none (finite/held/search.hpp). For cords:
-/// power series of degree 24; without gravity y = b sn(K x/a), §5.
-/// The tests count how many lists are proved complete (tests/cpp/held.cpp). For 3, 6 and 9 links
-/// with l <= a and one half wave, 99 of 108 lists are proved. With l > a or with massless links
-/// between others no list is proved, and with two or more half waves few are. If several links are
-/// slack at once, as beads can be without gravity, a range of about 1e-7 stays undecided. On arms
-/// and springs, 36 of 36 lists are proved for 3 links and two half waves, and 25 of 36 for 4 links
-/// and three half waves. Above the resonance of a carriage on its spring, 8 of 24 lists are proved
-/// for 3 links and three half waves (some are in tests/python/test_held_ends.py).
+/// power series of degree 24; without gravity y = b sn(K x/a), §5. For 3, 6 and 9 links with l <= a
+/// and one half wave, 99 of 108 lists are proved complete (tests/cpp/held.cpp). With l > a or with
+/// massless links between others no list is proved, and with two or more half waves few are. If
+/// several links are slack at once, as beads can be without gravity, a small range stays undecided.
 /// Accuracy: inclinations of chains are correctly rounded up to an error of 1e-20, with a bound
 /// that is mostly proved (tests/cpp/held.cpp). Positions on cords are within 1e-13 of the length,
-/// with an estimated bound. A given tension is met to 1e-15, relative.
-/// Cost: about 100 sweeps of 0.1 microseconds a link, or 100 paths of 20 microseconds for a cord;
-/// for a tension some thousand sweeps. Completeness takes 10 to 500 ms; `budget` 0 omits it.
+/// with an estimated bound. A given tension is met to 1e-15, relative. Cost: about 100 sweeps of
+/// O(N), or 100 paths of a cord; for a tension some thousand. The proof of completeness of 9 rods
+/// at half their length takes 0.1 s; `budget` 0 omits it.
 /// Throws InvalidArgument for a speed missing, not positive or not finite, g/n^2 outside the range
 /// of double, `max_half_waves` below 1, and weights more than 1e123 apart.
 REVCHAIN_DECLARE
@@ -175,8 +171,8 @@ struct HeldModesOptions {
 /// are counted in double; each gets a Rayleigh quotient in double-double and two proved counts.
 /// Accuracy: `error_bound` is proved, 1 ulp; wider for a few modes of links 1e9 times lighter than
 /// their neighbours (docs/accuracy.md). A tension or stiffness whose second word is not 0 is taken
-/// as a quotient that was rounded once; otherwise numbers are exact.
-/// Cost: 2 microseconds a link and mode, 0.5 more with shapes.
+/// as a quotient that was rounded once; otherwise numbers are exact. Cost: 0.7 microseconds a link
+/// and mode, also with shapes.
 /// Throws InvalidArgument for a span (use `stability`) and for a tension that does not exceed the
 /// weight (the chain would not be straight) or is out of range. Also throws for wrong numbers and
 /// windows as `modes` of a chain, and if rounding leaves the number of modes in a window in doubt.
@@ -184,8 +180,8 @@ REVCHAIN_DECLARE
 [[nodiscard]] Modes<double> modes(const Held<Chain<double>>& held,
                                   const HeldModesOptions& options = {});
 
-/// The number of modes slower than a speed, proved. Cost: 0.5 microseconds a link. Throws
-/// InvalidArgument as `modes`, and unless one of height and speed is given, positive, finite.
+/// The number of modes slower than a speed, proved. Cost: O(N). Throws InvalidArgument as `modes`,
+/// and unless one of height and speed is given, positive, finite.
 REVCHAIN_DECLARE
 [[nodiscard]] Index count_modes(const Held<Chain<double>>& held,
                                 const CountOptions<double>& options);

@@ -2,10 +2,10 @@
 #pragma once
 
 // Chains, rigs, closed forms and the functions used most; needs Eigen only. These headers are left
-// out, because together they would triple the time to compile: batch.hpp, branches.hpp,
-// damped_modes.hpp, explain.hpp, forced_motion.hpp, held.hpp, methods.hpp, rig_modes.hpp,
-// stability.hpp, stability_windows.hpp, swing.hpp, transient.hpp and tune.hpp. Include the one that
-// you need. Headers that need GSL are in revchain/analytic.hpp.
+// out, because they take long to compile: batch.hpp, branches.hpp, campbell.hpp, damped_modes.hpp,
+// drag.hpp, explain.hpp, forced_motion.hpp, held.hpp, methods.hpp, rig_modes.hpp, stability.hpp,
+// stability_windows.hpp, swing.hpp, transient.hpp and tune.hpp. Include the one that you need.
+// Cords, ropes and the motion of governors are in revchain/analytic.hpp, which needs GSL.
 
 #include "revchain/bell.hpp"                   // IWYU pragma: export
 #include "revchain/buffer.hpp"                 // IWYU pragma: export
@@ -21,6 +21,7 @@
 #include "revchain/response.hpp"               // IWYU pragma: export
 #include "revchain/rig.hpp"                    // IWYU pragma: export
 #include "revchain/sensitivity.hpp"            // IWYU pragma: export
+#include "revchain/sleeve_governor.hpp"        // IWYU pragma: export
 #include "revchain/statics.hpp"                // IWYU pragma: export
 #include "revchain/steady_shapes.hpp"          // IWYU pragma: export
 #include "revchain/two_links.hpp"              // IWYU pragma: export

@@ -24,8 +24,7 @@
 /// Forces are in the unit of the weights, a stiffness in that unit over the unit of length. Numbers
 /// are stored exactly as given. Stiffness and momentum are double words: with masses for weights,
 /// newtons are divided by gravity without rounding to double, `Wide<double>(500.0) /
-/// Wide<double>(9.81)`. Rigs have `modes` (rig_modes.hpp), `steady_shapes`, `branches`,
-/// `stability`, `response` and `sensitivity`. Greenhill (1908) §2, §7 and §8.
+/// Wide<double>(9.81)`. `modes` of a rig is in rig_modes.hpp. Greenhill (1908) §2, §7 and §8.
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// The support of the uppermost pin. The default is a firm point on the axis.

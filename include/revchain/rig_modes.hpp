@@ -118,9 +118,8 @@ struct RigModes {
 /// (Ehrlich, Aberth) and proved in disjoint discs: at most 20,000 links and yielding supports.
 /// Accuracy, measured (tests/cpp/rig_modes.cpp): heights without momentum, speeds with it, within
 /// 0.501 ulp of the exact ones of the stored numbers. Bounds are 1 ulp by counts; shapes are as for
-/// chains. Cost: 0.03 microseconds per link and mode with shapes (AVX-512) if every stiffness is
-/// positive and no mass negative, else 1 microsecond; O(N k) memory. Discs: 0.15 microseconds N^2,
-/// with momentum 0.3 (5000 links 7 s).
+/// chains. Cost: 50 ns per link and mode with shapes if all links hang in tension; O(N k) memory.
+/// Discs: O(N^2).
 /// Throws InvalidArgument for mode numbers below 1, gravity not positive, a window with low >=
 /// high, numbers together with a window, and too many links for discs. A bound that is not proved
 /// is infinite, and the status is then `tolerance_not_met`.
@@ -159,8 +158,8 @@ class RigModeCounter {
 ///
 ///     count_modes(rig, {.angular_speed = -5.0});  // backward modes between 0 and 5 rad/s
 ///
-/// Cost: 0.1 microseconds a link; by discs that of `modes`. Throws InvalidArgument unless exactly
-/// one of height and speed is given, and as `RigModeCounter`.
+/// Cost: O(N); by discs that of `modes`. Throws InvalidArgument unless exactly one of height and
+/// speed is given, and as `RigModeCounter`.
 REVCHAIN_DECLARE
 Index count_modes(const Rig& rig, const CountOptions<double>& options);
 

@@ -60,11 +60,11 @@ struct Sensitivity {
 /// Each is formed from offset and slope of its link; the derivative for a weight also has the sum
 /// of a s^2 over the links above, which carry it. Laws: sum of W d/dW = 0; sum of a d/da + h d/dh +
 /// rho d/drho = lambda. A link's part of this sum, a times `length_in_proportion`, is its share of
-/// y^T K y, so a longer link, in proportion, never lowers a height.
-/// Accuracy: every entry is within its error bound, which is proved; measured 0.51 ulp of the
-/// entry, or 1e-28 of the largest entry if that is more (tests/cpp/sensitivity.cpp). The heights in
-/// `modes` need not be accurate. Cost: 1.5 microseconds a link and mode; O(N k) memory. Throws
-/// InvalidArgument if the chain's weights are more than 1e123 apart.
+/// y^T K y, so a longer link, in proportion, never lowers a height. Accuracy: every entry is within
+/// its error bound, which is proved; measured 0.51 ulp of the entry, or 1e-28 of the largest entry
+/// if that is more (tests/cpp/sensitivity.cpp). The heights in `modes` need not be accurate. Cost:
+/// 1 microsecond a link and mode; O(N k) memory. Throws InvalidArgument if the chain's weights are
+/// more than 1e123 apart.
 template <Real T>
 [[nodiscard]] Sensitivity<T> sensitivity(const Chain<T>& chain, const Modes<T>& modes);
 
@@ -134,9 +134,9 @@ REVCHAIN_DECLARE
 /// The momentum of the flywheel of the link at index `link` with which `angular_speed` is a whirl
 /// speed of some mode, all else constant. It is unique: momentum adds to the tension, and at that
 /// speed the parts below and above the link act as springs at its pins. Formed in double-double:
-/// error 1e-15, relative to the tension (tests/cpp/linear/rig_sensitivity.cpp). Cost O(N). Throws
-/// InvalidArgument for a speed that is 0 or not finite, gravity not positive, a link number out of
-/// range, and if no finite momentum has that effect.
+/// the speed has a relative error of 1e-14 (tests/cpp/linear/rig_sensitivity.cpp). Cost O(N).
+/// Throws InvalidArgument for a speed that is 0 or not finite, gravity not positive, a link number
+/// out of range, and if no finite momentum has that effect.
 REVCHAIN_DECLARE
 [[nodiscard]] double momentum_for_speed(const Rig& rig, Index link, double angular_speed,
                                         double gravity = conical_pendulum::standard_gravity);

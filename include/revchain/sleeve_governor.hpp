@@ -59,13 +59,12 @@ struct GovernorEffort {
 
 /// A governor. With V the potential energy of balls, sleeve and spring, and J the moment of inertia
 /// of the balls, both functions of the inclination, the speed of equilibrium is n^2 = 2 V' / J'. It
-/// is stable if V'' > n^2 J''/2, and oscillates with the frequency sqrt((V'' - n^2 J''/2) / A), where
-/// A is twice the kinetic energy over the square of the arms' rate; n^2 J'^2 / (I + J) is added to
-/// the numerator if the shaft has the moment of inertia I and turns freely. Watt (1788), Porter
-/// (1858), Hartnell (1872).
+/// is stable if V'' > n^2 J''/2, and oscillates with the frequency sqrt((V'' - n^2 J''/2) / A),
+/// where A is twice the kinetic energy over the square of the arms' rate; n^2 J'^2 / (I + J) is
+/// added to the numerator if the shaft has the moment of inertia I and turns freely.
 ///
-/// Accuracy measured (tests/cpp/sleeve_governor.cpp): 1e-15 of speeds, 1e-14 of periods. Cost: 0.1
-/// microseconds a point, 20 for all equilibria.
+/// Accuracy measured: squares of speeds 1e-12 (tests/cpp/sleeve_governor.cpp), periods 1e-14
+/// (tests/python/test_governor.py). Cost: 50 ns a point, 0.3 ms for all equilibria.
 class SleeveGovernor {
    public:
     /// Throws InvalidArgument unless ball mass, arm and gravity are positive, other masses, lengths,
@@ -79,8 +78,8 @@ class SleeveGovernor {
     /// The speed of equilibrium, NaN if there is none.
     [[nodiscard]] double speed(double inclination) const { return at(inclination).speed; }
     /// All equilibria at a speed with the balls on their own side of the axis, by inclination;
-    /// found by intervals, which prove that there are no others. `complete` is false if two lie
-    /// closer than 1e-9. Throws InvalidArgument unless speed >= 0 and finite.
+    /// found by intervals, which prove that there are no others. `complete` is false if two lie too
+    /// close together to be told apart. Throws InvalidArgument unless speed >= 0 and finite.
     [[nodiscard]] std::vector<GovernorPoint> equilibria(double speed,
                                                         bool* complete = nullptr) const;
     /// The answer to a speed that rises by the fraction `change` from the equilibrium at an

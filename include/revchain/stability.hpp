@@ -70,21 +70,19 @@ struct Stability {
 /// offsets, M is the mass matrix and B the gyroscopic coupling. Links are rods without inertia
 /// about their own axes. N links have 4 N - 2 exponents if free, 2 N if driven; fewer with massless
 /// links, because two links that meet in a pin without mass stay in line. N = 1: n sqrt(1 + 3 cos^2
-/// d) free, n sin d driven, §7 (6).
-/// Exponents and verdict contain no damping. A minimum stays stable with friction at the pins. A
-/// shape that is only spectrally stable is held by gyroscopic forces: friction makes the motions of
-/// negative energy grow (Kelvin, Tait, Chetaev; Merkin 1997, Kirillov 2013). `internal_damping` and
-/// `external_damping` tell which motions grow, to first order; the torque that balances the mean
-/// drag has an effect of second order only. Drag in proportion to mass instead of length adds -1/2
-/// of drag over mass to each growth rate, for any shape.
-/// Accuracy: simple exponents to about 1e-13 of the largest; `exponent_error` estimates each error,
-/// and a verdict within it is `undecided`. If double loses digits, as with masses far apart, up to
-/// 100 motions are computed with twice the digits if `thorough` is given, or in programs that link
-/// revchain::compiled. With masses 1e16 apart the error is then mostly 2e-13 of the largest (3e-11
-/// at worst of 900 shapes). On arms and springs it is 5e-9, because the shape is given in double
-/// (tests/python/test_light_links.py).
-/// Cost (4 N)^3/2: 0.5 ms for 20 links, 4 ms for 40; less if every motion out of the plane has
-/// positive energy, 100 times as much with twice the digits.
+/// d) free, n sin d driven, §7 (6). Exponents and verdict contain no damping. A minimum stays
+/// stable with friction at the pins. A shape that is only spectrally stable is held by gyroscopic
+/// forces: friction makes the motions of negative energy grow (Kelvin, Tait, Chetaev; Merkin 1997,
+/// Kirillov 2013). `internal_damping` and `external_damping` tell which motions grow, to first
+/// order; the torque that balances the mean drag has an effect of second order only. Drag in
+/// proportion to mass instead of length adds -1/2 of drag over mass to each growth rate, for any
+/// shape. Accuracy: simple exponents to about 1e-13 of the largest; `exponent_error` estimates each
+/// error, and a verdict within it is `undecided`. If double loses digits, as with masses far apart,
+/// shapes of up to 50 links are computed with twice the digits if `thorough` is given, or in
+/// programs that link revchain::compiled. With masses 1e16 apart errors are then at most 2e-13 of
+/// the largest in the tests, on arms and springs 5e-9, because the shape is given in double
+/// (tests/python/test_light_links.py). Cost: O(N^3), 0.4 ms for 20 links and 2 ms for 40; less if
+/// every motion out of the plane has positive energy, much more with twice the digits.
 /// Throws InvalidArgument if numbers or lengths of links differ (weights are not compared); without
 /// `thorough` also if rounding leaves in doubt whether every motion moves mass.
 REVCHAIN_DECLARE
@@ -97,9 +95,9 @@ REVCHAIN_DECLARE
 /// Returns the stability of a shape with both ends held. Firm ends are fixed; ends on springs move
 /// across the axis. N links have 4 N - 8 exponents if free, 2 N - 4 if driven, with or without
 /// gravity; each end on a spring adds 4, or 2. Arms turn at constant speed: between ends off the
-/// axis no rotation is removed, which adds 2 exponents if free.
-/// Accuracy: simple exponents to 1e-13 of the largest (tests/cpp/finite/stability/held.cpp). Cost
-/// (4 N)^3/2. Throws InvalidArgument as above, and for a massless moving pin below the upper end.
+/// axis no rotation is removed, which adds 2 exponents if free. Accuracy: simple exponents to 1e-13
+/// of the largest (tests/cpp/finite/stability/held.cpp). Cost: O(N^3). Throws InvalidArgument as
+/// above, and for a massless moving pin below the upper end.
 REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Chain<double>& chain, const HeldShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);

@@ -38,9 +38,9 @@ struct StabilityWindowsOptions {
 /// `thorough` only in programs that link revchain::compiled). Where the verdict changes, the step
 /// is halved until it is as short as `tolerance`; an undecided part between two verdicts counts as
 /// the edge. A window shorter than the distance between two samples can be missed, so the result is
-/// not proved. Accuracy: edges to `tolerance` (measured: two equal plummets, second branch,
-/// 0.463321 of the critical height). Cost: some (4 N)^3 a sample. Throws InvalidArgument if the
-/// numbers of links differ, for a tolerance not above 0 and for `samples` below 1.
+/// not proved. Accuracy: edges to `tolerance`. Cost: that of `stability` for each sample. Throws
+/// InvalidArgument if the numbers of links differ, for a tolerance not above 0 and for `samples`
+/// below 1.
 REVCHAIN_DECLARE
 [[nodiscard]] std::vector<StabilityWindow> stability_windows(
     const Chain<double>& chain, const Branch& branch, const StabilityWindowsOptions& options = {});

@@ -50,8 +50,7 @@ struct ForceDiagram {
 /// The straight chain with the weights of the shape moved to the axis at their levels. Each link is
 /// as long as its link in the shape is high. Its mode at the shape's conical height has the offsets
 /// of the shape, at any inclination and for links of any kind. Its stiffness is that of the shape
-/// perpendicular to the turning plane. Accuracy: lengths to 2 ulp of the shape's heights. Throws
-/// InvalidArgument as `force_diagram`.
+/// perpendicular to the turning plane. Throws InvalidArgument as `force_diagram`.
 [[nodiscard]] Chain<double> transferred_to_axis(const Chain<double>& chain,
                                                 const SteadyShape& shape);
 

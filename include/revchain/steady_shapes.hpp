@@ -58,8 +58,8 @@ struct InclinationRange {
 struct SteadyShapesOptions {
     std::optional<double> conical_height{};
     std::optional<double> angular_speed{};  ///< rad/s; of a rig, negative: backward
-    /// Limit of link evaluations. Each takes 0.5 microseconds, 2 for links whose pendulum length is
-    /// below their length, and more in double-double.
+    /// Limit of link evaluations. Each takes 0.5 microseconds for plummets, longer for other links
+    /// and in double-double.
     long budget = 3'000'000;
     bool hanging_only = true;  ///< only shapes with every link hanging, or in the rig's posture
     double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`, for flywheels
@@ -100,23 +100,20 @@ struct SteadyShapes {
 /// Krawczyk's test then treat all pins in double-double. Links that stand, or hang at several
 /// inclinations under one load (lambda <= W h (l - a)/(W h + a S): pendulum length l > a, or a
 /// centroid above the upper pin), are followed along each inclination. Krawczyk's test then decides
-/// boxes of all tangents.
-/// Accuracy: every inclination is within `error_bound`, proved, mostly 2.3e-16 (4.4e-16 if links
-/// stand); measured errors are at most 2 ulp of the inclination. Without `thorough` bounds are
-/// wider if links lie within 1e-5 of the horizontal: 1e-14 for three plummets at 1e-5 of a link's
-/// length, 6e-7 at 1e-7. `complete` is proved too. If it is false, `undecided` has the ranges where
-/// shapes may be missing: at exactly a critical speed or a fold, or if the budget is used up, as
-/// for chains of 20 plummets or more at heights near 1/1000 of their length. If each link has one
-/// inclination for its load, a scan adds the shapes it finds there. At heights below 2^-50 (9e-16)
-/// of the longest length (rounded up to a power of 2) nothing is listed and `complete` is false.
-/// There tensions would lose their digits: double-double resolves offsets to 2^-104 of that length,
-/// and a sideways pull is an offset over the height.
-/// Cost: 10 to 500 cells a shape. 84 shapes of eight plummets take 12 ms, 6466 of twelve 1 s, the
-/// first of 1000 plummets 0.02 s, the 14 of 1000 plummets at 1/500 of their length 4 s. In any
-/// posture, at heights down to 1e-3 of the length, all shapes of three links take 1 to 5 ms, of
-/// four (64 of equal plummets) 4 to 70 ms, 868 of six plummets 0.6 s, 11008 of eight 11 s. Threads
-/// share the refinement of shapes, about half of the cost; results are bitwise the same for any
-/// number of threads.
+/// boxes of all tangents. Accuracy: every inclination is within `error_bound`, proved, mostly
+/// 2.3e-16 (4.4e-16 if links stand); measured errors are at most 2 ulp of the inclination. Without
+/// `thorough` bounds are wider if links lie within 1e-5 of the horizontal: 1e-14 for three plummets
+/// at 1e-5 of a link's length, 6e-7 at 1e-7. `complete` is proved too. If it is false, `undecided`
+/// has the ranges where shapes may be missing: at exactly a critical speed or a fold, or if the
+/// budget is used up, as for chains of 20 plummets or more at heights near 1/1000 of their length.
+/// If each link has one inclination for its load, a scan adds the shapes it finds there. At heights
+/// below 2^-50 (9e-16) of the longest length (rounded up to a power of 2) nothing is listed and
+/// `complete` is false. There tensions would lose their digits: double-double resolves offsets to
+/// 2^-104 of that length, and a sideways pull is an offset over the height. Cost for equal
+/// plummets: the 46 shapes of eight at 1/200 of their length take 5 ms, the 14 shapes of 1000 at
+/// 1/500 of their length 2 s. In any posture, at 1/1000 of the length, the 18 shapes of three take
+/// 2 ms, the 64 of four 12 ms. Threads share the refinement of shapes, about half of the cost;
+/// results are bitwise the same for any number of threads.
 /// Above the first critical height there is no shape in any posture. Proof: let s be the sines of
 /// the inclinations d, G their mass matrix, kappa = W h + a S, D = lambda diag(kappa |sec d|) > G,
 /// and E = diag(+-1) the postures. Then E D s = G s gives, with w = D^1/2 s, |E w| = |D^-1/2 G
@@ -140,10 +137,9 @@ REVCHAIN_DECLARE
 /// of the topmost pin, H/lambda its sideways pull, W the carriage weight, E the spring's stiffness.
 /// With b > 0 tangents of both signs are searched. The pull of a link is tension + n
 /// momentum/length. If it is negative (a wheel against the rotation, a float), the link leans
-/// against its load and is followed along each inclination.
-/// `complete` is also false if a link leans against its load in a rig of more than some 160 links,
-/// or if lambda E equals the total moving weight, to rounding. Pins may then be at any distance,
-/// and the search covers about a million times the chain's reach.
+/// against its load and is followed along each inclination. `complete` is also false if a link
+/// leans against its load in a rig of many links, or if lambda E equals the total moving weight, to
+/// rounding. Pins may then be at any distance, and the search ends far beyond the chain's reach.
 /// Throws InvalidArgument as for chains, but a negative speed is the backward direction. Also
 /// throws for gravity not positive and finite, an effective tension that vanishes, and a lowest
 /// link whose moving weights balance about its pin.

@@ -76,14 +76,13 @@ struct Tuned {
 /// length, a centroid or a radius of gyration that gives any mode this height is then a root of an
 /// equation of degree 1 or 2. Proved counts on each side of a root assign it to a mode and bound
 /// its error. A weight loads all links above; its nearest value on each side is found in steps that
-/// provably skip none.
-/// Accuracy: `error_bound`, proved. Measured: 1 to 4 ulp of the value if its logarithmic derivative
-/// is not small (tests/cpp/tune.cpp). If no value is found, the extremes are those of 33 sampled
-/// values and, for a weight, of those searched. Cost: about 10 to 60 counts of O(N); for a weight
-/// about 10 to 100 heights. Throws InvalidArgument for numbers out of range, for weights more than
-/// 1e123 apart, and unless exactly one of height and speed is given. Also throws for a range in
-/// which a link always stands: this one or, for a weight, one above. A part of a range in which one
-/// stands is cut off.
+/// provably skip none. Accuracy: `error_bound`, proved. Measured: 1 to 4 ulp of the value if its
+/// logarithmic derivative is not small (tests/cpp/tune.cpp). If no value is found, the extremes are
+/// those of 33 sampled values and, for a weight, of those searched. Cost: some counts of modes,
+/// O(N) each; for a weight, of heights. Throws InvalidArgument for numbers out of range, for
+/// weights more than 1e123 apart, and unless exactly one of height and speed is given. Also throws
+/// for a range in which a link always stands: this one or, for a weight, one above. A part of a
+/// range in which one stands is cut off.
 REVCHAIN_DECLARE
 [[nodiscard]] Tuned tune(const Chain<double>& chain, const TuneOptions& options);
 

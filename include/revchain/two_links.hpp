@@ -172,7 +172,7 @@ struct PairShape {
 /// All shapes in which two plummets hang at the speed with conical height `height`, §2 (4); at most
 /// four, sorted by half waves, then by the inclination of the lower thread. None if `height` is at
 /// least the first of `two_plummets`. The list is complete: the proof is in
-/// paper/two_links_shapes.hpp. Cost: 10 microseconds a shape.
+/// paper/two_links_shapes.hpp. Cost: 1 microsecond a shape.
 /// Accuracy: inclinations 4 ulp for the data as given, also near a fold and near the vertical.
 /// Rounding of the data changes tangents by up to height_k / (height_k - height) times as much if a
 /// shape leaves the vertical at height_k, and by the square root of the rounding where two shapes

@@ -113,7 +113,8 @@ TEST_CASE("batch: every height against quadruple precision") {
         table<Index, Index>({{1, 50}, {2, 300}, {3, 200}, {5, 150}, {10, 50}, {16, 20}, {17, 20}, {40, 3}, {100, 1}}));
     const Links<double> links = random_links<double>(kind, chains, size, static_cast<std::uint64_t>(size));
     const BatchOptions options{.count = kind == Kind::odd ? std::optional<Index>(1) : std::nullopt};
-    CHECK(worst_error(links, revchain::conical_heights(links.batch(), options)) <= 4.2);
+    const double most = kind == Kind::plummets || kind == Kind::rods ? 2.8 : 4.2;
+    CHECK(worst_error(links, revchain::conical_heights(links.batch(), options)) <= most);
 }
 
 TEST_CASE("batch: ten thousand random chains, none wrong") {

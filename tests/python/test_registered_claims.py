@@ -112,6 +112,16 @@ def test_a_wrong_number_and_a_sentence_that_is_gone_are_found(claims, tree):
     assert len(claims["gone"](tree("It is quick.\n", entry))) == 1
 
 
+def test_times_that_a_command_prints(claims, tree):
+    entry = '[[claim]]\nfile = "docs/page.md"\ntext = "takes 3 ms"\nmeasured = {"3 ms" = "one: call"}\n'
+    for took, good in (("2000 µs", True), ("7 ms", False)):
+        root = tree("It takes 3 ms.\n", f"measure = \"printf 'one: call\\t{took}\\n'\"\n" + entry)
+        (_, register), = claims["registers"](root)
+        names = claims["names_of"](register)
+        assert claims["check"](register["claim"][0], names, root, False).says == "by --run"
+        assert claims["check"](register["claim"][0], names, root, True).good == good
+
+
 def test_an_entry_with_two_checks_is_refused(claims, tree):
     root = tree("", '[[claim]]\nfile = "docs/page.md"\ntext = "x"\ntest = "a"\nsource = "b"\n')
     with pytest.raises(ValueError, match="one of equals, holds"):
