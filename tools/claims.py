@@ -26,6 +26,7 @@ which the tests run.
 import argparse
 import ast
 import math
+import os
 import re
 import subprocess
 import sys
@@ -247,7 +248,10 @@ def check(claim: dict[str, Any], names: dict[str, Any], root: Path, run: bool) -
         took = {written: seconds_of(code, names) for written, code in claim["cost"].items()}
         good = all(numbers_in(written)[0] / 2 <= value <= numbers_in(written)[1] * 2 for written, value in took.items())
         return Result(good, ", ".join(f"{value:.2g} s" for value in took.values()))
-    done = subprocess.run(claim["run"], shell=True, cwd=root, capture_output=True, text=True)
+    paths = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])  # of this Python first
+    done = subprocess.run(
+        claim["run"], shell=True, cwd=root, capture_output=True, text=True, env={**os.environ, "PATH": paths}
+    )
     match = re.search(claim["says"], done.stdout + done.stderr, re.S)
     return Result(bool(match), " ".join(match[0].split()) if match else "not printed: " + claim["says"])
 
