@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """All shapes of a chain without links at length / conical height 500: compiled methods and SciPy's, taking turns.
 
-    bench/continuous_peers.py PROGRAM [--rounds 5] [--into FILE.csv]
+    bench/continuous_peers.py PROGRAM [--rounds 5] [--csv FILE]
 
 PROGRAM is the built bench/continuous.cpp. Medians over rounds of CPU time; what is found is compared with
 tests/data/continuous_shapes.csv: a shape is right with its number of half waves and inclinations within 1e-6, wrong where a
@@ -109,7 +109,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
     parser.add_argument("--rounds", type=int, default=5)
-    parser.add_argument("--into")
+    parser.add_argument("--csv", metavar="FILE")
     options = parser.parse_args()
     exact = truth()
     rows = {}
@@ -132,8 +132,8 @@ def main():
         worst[0] = min(row[1] for row in found)
         counts = [str(int(x)) for x in worst[:3]]
         lines.append([name, f"{middle:.4g}", f"{middle / ours:.3g}", *counts, f"{worst[3]:.2g}", f"{worst[4]:.2g}"])
-    if options.into:
-        with open(options.into, "w", encoding="utf-8", newline="") as file:
+    if options.csv:
+        with open(options.csv, "w", encoding="utf-8", newline="") as file:
             csv.writer(file, lineterminator="\n").writerows(lines)
     widths = [max(len(line[i]) for line in lines) for i in range(len(lines[0]))]
     for line in lines:

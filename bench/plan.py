@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: MPL-2.0
-"""What is measured, and what is wanted of it. Methods are not listed here: the workers say which they have."""
+"""Which chains bench/heights.py measures. Methods are not listed here: the workers say which they have."""
 
 from dataclasses import dataclass
-from math import log10
 
 KINDS = {
     "A": "equal plummets",
@@ -12,6 +11,7 @@ KINDS = {
     "D": "plummets, weights 1 … 1e12 upward",
     "E": "plummets, weights 1e12 … 1 upward (heavy tip)",
 }
+CLOSE = (0.0, 1e-14)  # tolerances; 0: none, to the last digit
 
 
 @dataclass(frozen=True)
@@ -21,6 +21,8 @@ class Task:
     kind: str
     links: int
     modes: int
+    tolerances: tuple[float, ...] = (0.0,)
+    only: tuple[str, ...] = ()  # methods; empty: all
 
     @property
     def all(self):
@@ -46,88 +48,25 @@ class Task:
 
 
 @dataclass(frozen=True)
-class Target:
-    """`ours` is to be `ratio` times faster than `baseline` (None: no target, shown for comparison)."""
-
-    task: Task
-    baseline: str
-    ratio: float | None
-    ours: str = "modes"
-    baseline_kind: str = ""  # where the baseline can do another kind of chain only
-    rtol: float = 0.0  # asked of `ours`; 0: none, to the last digit
-
-    @property
-    def baseline_task(self):
-        return Task(self.baseline_kind or self.task.kind, self.task.links, self.task.modes)
-
-
-@dataclass(frozen=True)
 class Plan:
-    name: str
     tasks: tuple[Task, ...]
-    targets: tuple[Target, ...]
-    tolerances: tuple[float, ...]  # 0: none asked
     rounds: int  # at most
     slice: float  # CPU seconds of one measurement, where a call is shorter
-    # CPU seconds after which a method is not called again in a task; a quarter of it where no target is set
-    budget: float
+    budget: float  # CPU seconds after which a method is not called again in a task
     patience: float  # seconds after which a call is given up
     truths: int  # heights compared with the truth in a task
-    convergence: int  # largest N
-    final: bool  # whether sizes are those of the targets
 
 
-BATCH_RATIO = 10  # wanted of 1e5 chains of 10 links (bench_batch)
+def tasks(sizes, small, drawn, many, drawn_at):
+    """The ten slowest modes of chains of `sizes`; all modes of those of `small`, of `drawn` and of `many` links."""
+    listed = [Task(kind, links, min(10, links)) for links in sizes for kind in "CR" if links > 10]
+    listed += [Task(kind, links, min(10, links), only=("modes", "dstebz")) for links in sizes for kind in "ABDE"]
+    listed += [Task(kind, links, links, CLOSE) for links in (*small, many) for kind in "CR"]
+    return (*listed, *(Task(kind, drawn, drawn, drawn_at) for kind in "CR"))
 
 
-def few(links):
-    return min(10, links)
-
-
-def targets(slowest, all_modes):
-    plummets, rods = Task("C", slowest, 10), Task("R", slowest, 10)
-    result = [
-        Target(plummets, "dstebz", 600),
-        Target(plummets, "scipy eigsh, factored inverse", 1000),
-        Target(plummets, "direct Newton", 12),
-        Target(plummets, "direct, two points", None),
-        Target(plummets, "Spectra shift-invert", None),
-        Target(plummets, "scipy eigsh", None),
-        Target(rods, "dstebz", 300, baseline_kind="C"),  # there is none for a pencil
-        Target(rods, "scipy eigsh, factored inverse", 500),
-        Target(rods, "direct Newton", 6),
-        Target(rods, "direct, two points", None),
-    ]
-    # A proved 1e-14 (45 ulp) is far closer than these peers come; to the last digit it takes longer.
-    for rtol, wanted in ((1e-14, (15, 10)), (0.0, (None, None))):
-        result += [Target(Task("C", all_modes, all_modes), "dlasq1", wanted[0], rtol=rtol),
-                   Target(Task("C", all_modes, all_modes), "dsterf", None, rtol=rtol),
-                   Target(Task("R", all_modes, all_modes), "dsbgv", wanted[1], rtol=rtol)]
-    for links in (2, 5, 10):
-        for rtol, wanted in ((1e-14, 2), (0.0, None)):
-            result += [Target(Task("C", links, links), "dsterf", wanted, rtol=rtol),
-                       Target(Task("C", links, links), "dlasq1", None, rtol=rtol),
-                       Target(Task("R", links, links), "dsbgv", wanted, rtol=rtol)]
-    return tuple(result)
-
-
-def tasks(sizes, all_sizes, wanted):
-    listed = [Task(kind, links, few(links)) for links in sizes for kind in KINDS]
-    listed += [Task(kind, links, links) for links in all_sizes for kind in "CR"]
-    for target in wanted:
-        listed += [target.task, target.baseline_task]
-    return tuple(dict.fromkeys(listed))  # each once
-
-
-def error_limit(links):
-    """Wanted of every mode, in ulp (2^-52): 4, and one more for each decade beyond 1e4."""
-    return 4 + max(0.0, log10(links / 1e4))
-
-
-QUICK_TARGETS = targets(slowest=30_000, all_modes=300)
-FULL_TARGETS = targets(slowest=1_000_000, all_modes=10_000)
-QUICK = Plan("quick", tasks((10, 300), (), QUICK_TARGETS), QUICK_TARGETS, tolerances=(0.0, 1e-14, 1e-8, 1e-4), rounds=3,
-             slice=0.002, budget=0.15, patience=20, truths=40, convergence=1000, final=False)
-FULL = Plan("full", tasks((10, 100, 1000, 10_000, 100_000, 1_000_000), (100, 1000), FULL_TARGETS), FULL_TARGETS,
-            tolerances=(0.0, 1e-14, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2), rounds=9,
-            slice=0.02, budget=12, patience=900, truths=10_000, convergence=100_000, final=True)
+SWEEP = (*CLOSE, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2)
+QUICK = Plan(tasks((10, 300), (2, 10), 100, 300, (*CLOSE, 1e-8, 1e-4)), rounds=3, slice=0.002, budget=0.15, patience=20,
+             truths=40)
+FULL = Plan(tasks((10, 100, 1000, 10_000, 100_000, 1_000_000), (2, 5, 10), 1000, 10_000, SWEEP), rounds=9, slice=0.02,
+            budget=6, patience=300, truths=500)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MPL-2.0
-"""Picture of what bench_tradeoff measured: python bench/plot_tradeoff.py results/tradeoff-DATE.csv [FOLDER]
+"""Picture of what bench_tradeoff measured: python bench/plot_tradeoff.py tradeoff.csv
 
-Writes tradeoff.svg into FOLDER, else beside the file, and prints the table of docs/models.md. Needs matplotlib.
+Writes tradeoff.svg beside the file. Needs matplotlib.
 """
 
 import csv
@@ -21,16 +21,8 @@ COLOURS = {  # that colour-blind readers tell apart (Okabe and Ito)
     "double-double": "#000000",
 }
 OTHERS, BOUNDS = "0.5", "0.7"  # grey dots, grey line
-FORMER = {  # names in files of before 2026-11-23
-    "all together": "aberth",
-    "interpolated spectrum": "interpolated",
-    "compressed blocks": "condensed",
-    "element bisection": "bisection",
-}
 MODES = 3
 PANELS = [(kind, links) for kind in ("equal rods", "random rods") for links in (100, 100_000)]
-SIZES = (5, 100, 1000, 100_000)
-TABLE = (1e-2, 1e-6, 1e-12, 1e-15, 1e-20)  # tolerances
 
 
 @dataclass(frozen=True)
@@ -44,16 +36,15 @@ class Point:
 
 
 def read(path):
-    """Points by (scene, links, modes, inclination); and the comments, which say how they arose."""
-    with path.open(encoding="utf-8") as file:
-        lines = file.read().splitlines()
+    """Points by (scene, links, modes, inclination)."""
     points = {}
-    for row in csv.DictReader(line for line in lines if not line.startswith("#")):
-        if row["took_us"]:
-            key = row["scene"], int(row["links"]), int(row["modes"]), float(row["inclination"])
-            numbers = (float(row[name]) for name in ("error", "bound", "took_us"))
-            points.setdefault(key, []).append(Point(FORMER.get(row["model"], row["model"]), *numbers))
-    return points, [line[2:] for line in lines if line.startswith("# ") and "SPDX" not in line]
+    with path.open(encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            if row["took_us"]:
+                key = row["scene"], int(row["links"]), int(row["modes"]), float(row["inclination"])
+                numbers = (float(row[name]) for name in ("error", "bound", "took_us"))
+                points.setdefault(key, []).append(Point(row["model"], *numbers))
+    return points
 
 
 def front(points):
@@ -111,21 +102,6 @@ def picture(points):
     return figure
 
 
-def table(points):
-    """The cheapest model that keeps a tolerance, and its time, as Markdown."""
-    chains = [(kind, links, 0.0) for kind in ("equal plummets", "equal rods", "random rods") for links in SIZES]
-    chains += [(kind, 100, 0.3) for kind in ("equal rods", "random rods")]
-    lines = ["| three slowest modes of | " + " | ".join(f"to {rtol:g}" for rtol in TABLE) + " |", "|---" * 6 + "|"]
-    for kind, links, inclination in chains:
-        cells = [f"{links:,} {kind}" + (f", {inclination:g} rad" if inclination else "")]
-        for rtol in TABLE:
-            good = [point for point in points[kind, links, MODES, inclination] if point.bound <= rtol]
-            best = min(good, key=lambda point: point.us, default=None)
-            cells.append(f"{best.model}, {time_text(best.us)}" if best else "-")
-        lines.append("| " + " | ".join(cells) + " |")
-    return "\n".join(lines)
-
-
 def time_text(us):
     """Two digits."""
     number, unit = (us / 1e6, "s") if us >= 1e6 else (us / 1e3, "ms") if us >= 1e3 else (us, "µs")
@@ -133,14 +109,10 @@ def time_text(us):
 
 
 def main():
-    if len(sys.argv) not in (2, 3):
+    if len(sys.argv) != 2:
         sys.exit(__doc__)
     path = Path(sys.argv[1])
-    folder = Path(sys.argv[2]) if len(sys.argv) == 3 else path.parent
-    points, comments = read(path)
-    save(picture(points), folder / "tradeoff.svg", "; ".join(comments[:3]))
-    if max(links for _, links, _, _ in points) == max(SIZES):  # not of a quick run
-        print(table(points))
+    save(picture(read(path)), path.with_suffix(".svg"), "bench_tradeoff")
 
 
 if __name__ == "__main__":

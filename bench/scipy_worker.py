@@ -7,7 +7,6 @@ import sys
 import time
 
 import numpy as np
-import scipy
 from scipy import linalg, sparse, special
 from scipy.sparse import linalg as sparse_linalg
 
@@ -109,13 +108,10 @@ else:
 
 
 def listing():
-    methods = [{"name": name, "family": family, "scalar": "double", "kinds": kinds, "largest": largest,
+    methods = [{"name": name, "family": family, "kinds": kinds, "largest": largest,
                 "which": which, "has_tolerance": False}
                for name, (_, family, kinds, largest, which) in METHODS.items()]
-    blas = scipy.show_config(mode="dicts")["Build Dependencies"]["lapack"]
-    return {"methods": methods, "missing": MISSING,
-            "versions": f"Python {sys.version.split()[0]}, numpy {np.__version__}, scipy {scipy.__version__} "
-                        f"(LAPACK: {blas['name']} {blas['version']})"}
+    return {"methods": methods, "missing": MISSING}
 
 
 def run(function, chains, rods, count, repeat):

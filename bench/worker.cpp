@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
-// Runs one method on one chain at a time, as bench/measure.py asks over standard input: so that all methods, in this
+// Runs one method on one chain at a time, as bench/heights.py asks over standard input: so that all methods, in this
 // program and others, take turns. One request a line, words separated by tabs; one line of JSON in reply.
 //
 //     list                                                      the methods, what is missing, compiler and LAPACK
 //     run METHOD KIND N COUNT RTOL SEED CHAINS REPEAT           CPU seconds per chain and the heights of the first
-//     truth KIND N SEED SECANTS J:GUESS...                      heights number J (from 0) near GUESS
+//     truth KIND N SEED J:GUESS...                              heights number J (from 0) near GUESS
 //     write KIND N SEED FILE                                    the raw weights, for other programs
 //     check                                                     the truth and the direct method against assembled LDL^T
 #include <ctime>
@@ -53,7 +53,6 @@ double nanoseconds_per_cycle() {
 void register_canary(Registry& registry) {
     registry.methods.push_back({.name = "canary",
                                 .family = "canary",
-                                .scalar = "double",
                                 .kinds = "ABCDER",
                                 .largest = 10'000'000,
                                 .run = [](const RawChain& chain, std::size_t count, double, Heights& heights) {
@@ -111,7 +110,7 @@ std::string list(const Registry& registry) {
     const char* separator = "";
     for (const Method& m : registry.methods) {
         out << separator << "{\"name\":" << quoted(m.name) << ",\"family\":" << quoted(m.family)
-            << ",\"scalar\":" << quoted(m.scalar) << ",\"kinds\":" << quoted(m.kinds) << ",\"largest\":" << m.largest
+            << ",\"kinds\":" << quoted(m.kinds) << ",\"largest\":" << m.largest
             << ",\"which\":" << quoted(m.which) << ",\"has_tolerance\":" << (m.has_tolerance ? "true" : "false") << '}';
         separator = ",";
     }
@@ -162,23 +161,16 @@ std::string run(const Registry& registry, const Words& words) {
     return out.str();
 }
 
-template <class S>
-void truths(const RawChain& chain, int secants, const Words& words, Heights& heights) {
-    const bench::Truth<S> truth(chain);
-    for (std::size_t i = 5; i < words.size(); ++i) {
-        const auto colon = words[i].find(':');
-        heights.push_back(
-            truth.height(std::stoul(words[i].substr(0, colon)), std::stod(words[i].substr(colon + 1)), secants),
-            std::is_same_v<S, DoubleWord> ? 2 : 3);
-    }
-}
-
 std::string truth(const Words& words) {
-    const RawChain& chain =
-        raw_chain(words.at(1).at(0), std::stoul(words.at(2)), static_cast<unsigned>(std::stoul(words.at(3))));
-    const int secants = std::stoi(words.at(4));
+    const bench::Truth<DoubleWord> truth(
+        raw_chain(words.at(1).at(0), std::stoul(words.at(2)), static_cast<unsigned>(std::stoul(words.at(3)))));
     Heights heights;
-    secants == 1 ? truths<DoubleWord>(chain, 1, words, heights) : truths<support::Quad>(chain, secants, words, heights);
+    for (std::size_t i = 4; i < words.size(); ++i) {
+        const auto colon = words[i].find(':');
+        const DoubleWord height =
+            truth.height(std::stoul(words[i].substr(0, colon)), std::stod(words[i].substr(colon + 1)));
+        heights.push_back(height.high, height.low);
+    }
     return "{\"heights\":" + in_json(heights) + "}";
 }
 
@@ -192,40 +184,37 @@ std::string write(const Words& words) {
     return "{}";
 }
 
-/// Worst relative errors of the truth in both arithmetics, and of the direct method in ulp, against assembled LDL^T in
-/// quadruple precision with its own bisection.
+/// Worst relative error of the truth, and of the direct methods in ulp, against assembled LDL^T in quadruple precision with
+/// its own bisection.
 std::string check() {
-    double worst_pair = 0, worst_quad = 0, worst_direct = 0;
+    double worst_pair = 0, worst_direct = 0;
     for (const char kind : std::string("ABCDER"))
         for (const std::size_t size : {1, 2, 3, 10, 40, 300}) {
             const RawChain raw = bench::make_raw(kind, size, 7);
-            const support::Truth reference(bench::library_chain<double>(raw));
+            const support::Truth reference(bench::library_chain(raw));
             const bench::Truth<DoubleWord> pair(raw);
-            const bench::Truth<support::Quad> quad(raw);
             Heights newton, two_points;
             const std::size_t few = std::min<std::size_t>(size, 10);
             if (kind != 'D' && kind != 'E') bench::Direct(raw).newton(few, newton);
             if (kind != 'D' && kind != 'E') bench::Direct(raw).two_points(few, two_points);
-            const auto all = revchain::modes(bench::library_chain<double>(raw), {.count = revchain::all_modes},
+            const auto all = revchain::modes(bench::library_chain(raw), {.count = revchain::all_modes},
                                              revchain::methods::all)
                                  .conical_height;
             for (std::size_t j = 0; j<size; j += size> 40 && j >= 10 ? 29 : 1) {
                 const double guess = all[static_cast<revchain::Index>(j)];
                 const support::Quad h = reference.height(static_cast<revchain::Index>(j), support::Quad(guess) / 2,
                                                          support::Quad(guess) * 2, 1e-24);
-                const DoubleWord p = pair.height(j, guess, 1);
+                const DoubleWord p = pair.height(j, guess);
                 const auto off = [&](support::Quad x) { return std::abs(static_cast<double>((x - h) / h)); };
                 worst_pair = std::max(worst_pair, off(support::Quad(p.high) + support::Quad(p.low)));
-                worst_quad = std::max(worst_quad, off(quad.height(j, guess, 2)));
                 for (const Heights* direct : {&newton, &two_points})
                     if (j < direct->size()) worst_direct = std::max(worst_direct, off(direct->parts[0][j]) * 0x1p52);
             }
         }
     std::ostringstream out;
-    // Measured: 5e-19 (the secant's own error, of a bracket of 1e-10), 3e-25 (the reference's), 3.4 ulp.
-    const bool good = worst_pair < 1e-18 && worst_quad < 1e-24 && worst_direct < 6;
-    out << "{\"good\":" << (good ? "true" : "false") << ",\"pair\":" << worst_pair << ",\"quad\":" << worst_quad
-        << ",\"direct_ulp\":" << worst_direct << '}';
+    // Measured: 5e-19 (the secant's own error, of a bracket of 1e-10), 3.4 ulp.
+    const bool good = worst_pair < 1e-18 && worst_direct < 6;
+    out << "{\"good\":" << (good ? "true" : "false") << ",\"pair\":" << worst_pair << ",\"direct_ulp\":" << worst_direct << '}';
     return out.str();
 }
 

@@ -120,8 +120,7 @@ py::array derived(const Chain& chain) {
     return to_numpy(is_scalar, chain.size(), [&](Index m) { return property(chain.link(m)); });
 }
 
-/// What `get_state` returns ends with this and, of a chain that `tapered` made, its exponent; states of version 1 end before,
-/// with the squared radius of gyration itself.
+/// What `get_state` returns ends with this and, of a chain that `tapered` made, its exponent.
 constexpr int state_version = 2;
 
 /// Exact: both words of the ratio of squares.
@@ -137,27 +136,17 @@ py::tuple get_state(const Chain& chain) {
 }
 
 Chain set_state(const py::tuple& state) {
-    if (state.size() < 6 || state.size() > 8)
+    if (state.size() < 7 || state.size() > 8)
         throw_invalid("Chain", "this is not the state of a chain; its number of parts must be 7 or 8", state.size());
-    if (state.size() > 6 && state[6].cast<int>() != state_version)
+    if (state[6].cast<int>() != state_version)
         throw_invalid("Chain", "this is the state of a chain of another version; known is 2", state[6].cast<int>());
     const Index size = state[0].cast<Index>();
-    const Column<double> a = column(state[2].cast<Array>(), "length");
     const Column<double> high = column(state[4].cast<Array>(), "gyration_ratio");
     const Column<double> low = column(state[5].cast<Array>(), "gyration_ratio");
     const Index stored = static_cast<Index>(std::min(high.stored(), low.stored()));
     const auto words = [](std::string_view, double h, double l) { return Wide(h, l); };
-    const auto ratio = [](std::string_view, const Wide& square, double length) {
-        return revchain::detail::in_lengths(revchain::detail::in_lengths(square, length), length);
-    };
-    Column<Wide> gyration = combined(stored, words, high, low);
-    const bool first_version = state.size() == 6;
-    if (first_version) {
-        const Index common = std::min(gyration.is_scalar() ? size : stored, a.is_scalar() ? size : Index(a.stored()));
-        gyration = combined(common, ratio, gyration, a);
-    }
-    const Chain chain(size, column(state[1].cast<Array>(), "weight"), a, column(state[3].cast<Array>(), "centroid"),
-                      std::move(gyration));
+    const Chain chain(size, column(state[1].cast<Array>(), "weight"), column(state[2].cast<Array>(), "length"),
+                      column(state[3].cast<Array>(), "centroid"), combined(stored, words, high, low));
     return state.size() == 8 ? chain.as_tapered(state[7].cast<double>()) : chain;
 }
 

@@ -71,7 +71,7 @@ def of_page(path: Path, text: str) -> list[Sentence]:
     found = []
     blank = lambda match: "\n" * match.group().count("\n")  # noqa: E731
     text = re.sub(r"^( *)(```|~~~).*?^\1\2\s*$", blank, text, flags=re.S | re.M)
-    text = re.sub(r"<!-- results .*?<!-- end -->", blank, text, flags=re.S)
+    text = re.sub(r"<!-- results: .*?<!-- end -->", blank, text, flags=re.S)
     for match in re.finditer(r"(?:^(?!\s*$).*\n?)+", text, re.M):
         line = 1 + text[: match.start()].count("\n")
         for block in re.split(r"\n(?=\s*(?:\||[-*] |\d+\. |#))", match.group()):
@@ -119,7 +119,7 @@ def of_header(path: Path, text: str) -> list[Sentence]:
 
 def sentences(root: Path) -> list[Sentence]:
     pages = [*root.glob("*.md"), *sorted((root / "docs").rglob("*.md")), *root.glob("paper/*.md")]
-    pages = [page for page in pages if page.name != "cpp.md"]  # made from the headers
+    pages = [page for page in pages if page != root / "docs/reference/cpp.md"]  # made from the headers
     modules, headers = sorted((root / "src").rglob("*.py")), sorted((root / "include/revchain").glob("*.hpp"))
     readers = ((pages, of_page), (modules, of_module), (headers, of_header))
     texts = [(read, path.relative_to(root), path.read_text("utf-8")) for files, read in readers for path in files]

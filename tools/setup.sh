@@ -19,11 +19,14 @@ needs_table='
    ccache    ccache                    ccache    ccache              ccache
    lapack    libopenblas-dev           openblas  openblas-devel      openblas
    spectra   libspectra-dev            spectra   spectra-devel       spectralib
+   boost     libboost-dev              boost     boost-devel         libboost-headers
    clang     clang                     llvm      clang               clangxx
    fuzzer    clang,libclang-rt-dev     llvm      clang,compiler-rt   clangxx,compiler-rt
    emscripten emscripten               emscripten emscripten         emscripten
    node      nodejs                    node      nodejs              nodejs
    chromium  chromium                  chromium  chromium            chromium
+   pandoc    pandoc                    pandoc    pandoc              pandoc
+   latex     texlive-latex-recommended,lmodern texlive texlive-collection-latexrecommended,texlive-lm texlive-core
 '
 
 # package_names COLUMN NEED...
@@ -71,6 +74,9 @@ sys.exit(sys.version_info < (3, 11) or not os.path.exists(sysconfig.get_path("in
     emscripten) command -v emcc ;;
     node) command -v node ;;
     chromium) command -v chromium || command -v chromium-browser || command -v google-chrome ;;
+    pandoc) command -v pandoc ;;
+    latex) command -v pdflatex && kpsewhich lmodern.sty && kpsewhich booktabs.sty ;;
+    boost) compiles '#include <boost/numeric/odeint.hpp>' ;;
     spectra) compiles '#if !__has_include(<Spectra/SymEigsSolver.h>)\n#error\n#endif' ;;
   esac >/dev/null
 }

@@ -252,7 +252,6 @@ inline void register_direct(Registry& registry) {
     const auto add = [&](const char* name, auto solve) {
         registry.methods.push_back({.name = name,
                                     .family = "baseline",
-                                    .scalar = "double",
                                     .kinds = "ABCR",
                                     .largest = 10'000'000,
                                     .which = "few",

@@ -70,7 +70,6 @@ inline void register_eigen(Registry& registry) {
                          const char* which, auto f) {
         registry.methods.push_back({.name = name,
                                     .family = family,
-                                    .scalar = "double",
                                     .kinds = kinds,
                                     .largest = largest,
                                     .which = which,

@@ -37,12 +37,12 @@ inline void push_reciprocals(const double* mu, std::size_t count, Heights& heigh
     for (std::size_t j = 0; j < count; ++j) heights.push_back(1 / mu[j]);
 }
 
-inline void stebz(const RawChain& chain, std::size_t count, double abstol, Heights& heights) {
+inline void stebz(const RawChain& chain, std::size_t count, Heights& heights) {
     const Tridiagonal t = standard_form(chain);
     const int n = static_cast<int>(chain.size()), first = 1, last = static_cast<int>(count);
     std::vector<double> w(chain.size()), work(4 * chain.size());
     std::vector<int> block(chain.size()), split(chain.size()), iwork(3 * chain.size());
-    const double unused = 0;
+    const double unused = 0, abstol = 0;
     int found = 0, blocks = 0, info = 0;
     dstebz_("I", "E", &n, &unused, &unused, &first, &last, &abstol, t.diagonal.data(), t.off.data(), &found, &blocks,
             w.data(), block.data(), split.data(), work.data(), iwork.data(), &info);
@@ -118,7 +118,6 @@ inline void register_lapack(Registry& registry) {
         registry.methods.push_back(
             {.name = name,
              .family = "LAPACK",
-             .scalar = "double",
              .kinds = kinds,
              .largest = largest,
              .which = which,
@@ -127,10 +126,7 @@ inline void register_lapack(Registry& registry) {
     using C = const RawChain&;
     using H = Heights&;
     using N = std::size_t;
-    add("dstebz", "ACDE", 1'000'000, "any", [](C c, N n, H h) { detail::stebz(c, n, 0, h); });
-    // The tolerance that its manual calls the most accurate: twice the underflow threshold.
-    add("dstebz, abstol = 2 safmin", "ACDE", 1'000'000, "any",
-        [](C c, N n, H h) { detail::stebz(c, n, 2 * std::numeric_limits<double>::min(), h); });
+    add("dstebz", "ACDE", 1'000'000, "any", [](C c, N n, H h) { detail::stebz(c, n, h); });
     add("dstemr", "ACDE", 1'000'000, "any", [](C c, N n, H h) { detail::stemr(c, n, h); });
     add("dsterf", "ACDE", 20'000, "all", [](C c, N n, H h) { detail::sterf(c, n, h); });
     add("dlasq1", "ACDE", 20'000, "all", [](C c, N n, H h) { detail::lasq1(c, n, h); });

@@ -11,20 +11,16 @@
 
 namespace bench {
 
-/// Conical heights, slowest mode first, each an unevaluated sum of numbers in double: as many as its scalar takes.
+/// Conical heights, slowest mode first; reference values have a second part, the rest beyond double.
 struct Heights {
     std::vector<std::vector<double>> parts{1};
 
     void clear() {
         for (auto& part : parts) part.clear();
     }
-    template <class T>
-    void push_back(T x, std::size_t digits_in_doubles) {
-        if (parts.size() < digits_in_doubles) parts.resize(digits_in_doubles);
-        for (std::size_t i = 0; i < digits_in_doubles; ++i) {
-            parts[i].push_back(static_cast<double>(x));
-            x = x - T(parts[i].back());
-        }
+    void push_back(double high, double low) {
+        parts.resize(2);
+        parts[0].push_back(high), parts[1].push_back(low);
     }
     void push_back(double x) { parts[0].push_back(x); }
     std::size_t size() const { return parts[0].size(); }
@@ -33,7 +29,6 @@ struct Heights {
 struct Method {
     std::string name;
     std::string family;          ///< revchain, baseline (our own direct method), LAPACK, Eigen, Spectra
-    std::string scalar;          ///< float, double, long double, double-double, __float128
     std::string kinds;           ///< letters of make_raw
     std::size_t largest;         ///< N beyond which it takes too long or too much memory to be of interest
     std::string which = "any";   ///< "few": up to ten modes of more links; "all": computes all, whatever is asked

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 // What every method starts from: the weights as a plain array. Lengths are 1 and stay one number, so that memory is not
-// the limit. Weights fit into a float: then every scalar gets the same chain, to the last digit.
+// the limit. Weights fit into a float.
 #pragma once
 
 #include <cmath>

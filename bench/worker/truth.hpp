@@ -5,7 +5,7 @@
 //     y' = (1 - mu A/k) y - (mu/k) F,      F' = (1 - mu B/k) F + (W - mu C/k) y,       F = 0 at the free end;
 //
 // y = 0 at the support for the heights 1/mu, and the number of sign changes of y along the chain is the number of
-// heights above 1/mu (plummets and uniform rods). In S: double words, or quadruple precision where those are measured.
+// heights above 1/mu (plummets and uniform rods). In S: double words.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ class Truth {
     }
 
     /// Height number j (from 0, descending) near `guess`: a bracket that two counts prove, then the secant.
-    S height(std::size_t j, double guess, int secants) const {
+    S height(std::size_t j, double guess) const {
         S low(0.0), high(0.0);
         std::array<End, 2> at;
         const S centre = S(1.0) / S(guess);
@@ -47,12 +47,7 @@ class Truth {
             (e.below <= j ? at[0] : at[1]) = e;
             if (!(low < middle) && !(middle < high)) break;
         }
-        S root = secant(low, high, at);
-        for (double reach = 1e-20; secants > 1; --secants) {
-            low = root * S(1 - 1e-9) + root * S(1e-9 - reach), high = root + root * S(reach);
-            root = secant(low, high, evaluate<2>({low, high}));
-        }
-        return S(1.0) / root;
+        return S(1.0) / secant(low, high, at);
     }
 
    private:

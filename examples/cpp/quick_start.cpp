@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-// The README's first program: three unlike links, their whirl speeds and how sure they are.
+// Three unlike links: their whirl speeds, each with its error bound.
 #include <revchain/revchain.hpp>
 
 #include <cstdio>

@@ -63,7 +63,7 @@ struct BatchOptions {
 /// links (80 chains). Counts verify heights to 16 + N/4 ulp. Results are bitwise the same for any
 /// number of threads and any order of the chains; another `count` or processor may change last
 /// digits.
-/// Cost, all modes, N = 10: 0.24 microseconds for plummets, 0.36 for rods (bench/batch.cpp).
+/// Cost, all modes, N = 10: 0.2 microseconds for plummets, 0.35 for rods (bench/batch.cpp).
 /// Memory: the result, and a few numbers for each link of 16 chains a thread.
 /// Throws InvalidArgument, first of all, for a number that `Chain` refuses, naming chain, link and
 /// value. Also throws for an empty batch, a count below 1 or beyond the modes of some chain, a

@@ -35,9 +35,9 @@ inline constexpr auto all = std::tuple_cat(within_tolerance, many_modes, long_ch
 /// whose error bound is at most `rtol`. `methods` is a list above, or a tuple of your own models
 /// (docs/howto/model.md). Accuracy: as `modes`. Bounds are proved by counts; with `rtol`, those of
 /// closed forms, continuous chains and asymptotic formulas are derived and measured to hold, and
-/// `certify` proves them. Cost: all modes of 1000 links in 7 ms instead of 32 (`bench_all_modes
-/// engines`); `explain` predicts it. Scalars other than double and float use bisection. Throws
-/// InvalidArgument as `modes`, and for an `options.method` that is not among `methods`.
+/// `certify` proves them. Cost: all modes of 1000 links in 7 ms instead of 32 (bench_engines);
+/// `explain` predicts it. Scalars other than double and float use bisection. Throws InvalidArgument
+/// as `modes`, and for an `options.method` that is not among `methods`.
 template <Real T, class... Models>
 [[nodiscard]] Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options,
                              const std::tuple<Models...>& methods);

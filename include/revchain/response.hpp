@@ -56,8 +56,8 @@ struct Response {
 /// Accuracy: half an ulp of each offset, up to about 1e-12 from a resonance; `error_bound` and
 /// `modes_below` are proved for every chain. Below all resonances the chain is on the side of its
 /// support; each resonance reverses it. Results are bitwise the same for any number of threads.
-/// Cost: 10 to 40 ns for each link and speed with SIMD registers of eight doubles, twice that with
-/// two (bench/response.cpp). Memory: the result, which `pins` reduces.
+/// Cost: 10 to 40 ns for each link and speed with SIMD registers of eight doubles
+/// (bench/response.cpp). Memory: the result, which `pins` reduces.
 /// Throws InvalidArgument if both heights and speeds are given, unless heights, radius and gravity
 /// are positive and finite, and for pins that do not exist. Speeds must be finite and not 0, and
 /// positive without a flywheel. Heights (given or g/n^2) must be between 2^-250 and 2^250 times the

@@ -163,7 +163,8 @@ def main(seconds: float, first: int = 1, count: int = sys.maxsize) -> int:
     with tempfile.TemporaryDirectory() as folder:
         corpus = Corpus(Path(folder))
         while seed < first + count and time.monotonic() - began < seconds:
-            print(seed, end="\r", flush=True)  # what ends the process: the last seed is the one
+            if sys.stdout.isatty() or seed % 1000 == 0:  # if the process dies: start again from the last number
+                print(seed, end="\r" if sys.stdout.isatty() else "\n", flush=True)
             read, path = corpus.changed(random.Random(seed))
             signal.alarm(LONGEST)
             if found := failure(read, path):

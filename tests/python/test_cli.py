@@ -796,8 +796,3 @@ def test_every_shipped_scene_is_answered(run, repository, monkeypatch, path):
         if f"](../examples/scenes/{path.name}).\n" in section:
             printed = re.search(r"```toml\n.*?\n```\n\n```text\n(.*?)\n```\n", section, re.DOTALL)[1]
             assert printed.splitlines() == [line.rstrip() for line in out.splitlines() if not line.startswith("wrote ")]
-
-
-def test_a_benchmark_that_is_not_there(python, repository):
-    done = python(repository / "bench/measure.py", "--only", "nothing of the kind")
-    assert done.returncode == 2 and "no task's description contains 'nothing of the kind'" in done.stderr

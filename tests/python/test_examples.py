@@ -392,7 +392,8 @@ def frames_of(path):
         return [frame.copy() for frame in sequence.Iterator(film)]
 
 
-PAGES = [path for path in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))] if "```python" in path.read_text("utf-8")]
+PROSE = [ROOT / "README.md", *sorted(ROOT.glob("paper/*.md")), *sorted((ROOT / "docs").rglob("*.md"))]
+PAGES = [path for path in PROSE if "```python" in path.read_text("utf-8")]
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda path: path.stem)

@@ -3,6 +3,8 @@
 
 import json
 import re
+import subprocess
+import sys
 import tomllib
 from fnmatch import fnmatchcase
 
@@ -31,6 +33,12 @@ def cmake(repository):
 @pytest.fixture(scope="module")
 def project(repository):
     return tomllib.loads((repository / "pyproject.toml").read_text(encoding="utf-8"))
+
+
+@pytest.mark.slow
+def test_every_file_has_a_licence(repository):
+    done = subprocess.run([sys.executable, "-m", "reuse", "lint"], cwd=repository, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
 
 
 def test_versions_are_that_of_cmake(recipes, cmake):

@@ -86,6 +86,15 @@ def test_a_sentence_without_a_check_is_found(claims, tree):
     assert [each.text for each in rest] == ["It has 7 links."]
 
 
+def test_only_the_page_made_from_headers_is_left_out(claims, tree):
+    root = tree("", "")
+    for name in ("tutorial", "reference"):
+        (root / "docs" / name).mkdir()
+        (root / "docs" / name / "cpp.md").write_text(f"The {name} takes 3 seconds.\n", encoding="utf-8")
+    missing, _ = claims["unmatched"](root)
+    assert [each.text for each in missing] == ["The tutorial takes 3 seconds."]
+
+
 def test_a_wrong_number_and_a_sentence_that_is_gone_are_found(claims, tree):
     entry = '[[claim]]\nfile = "docs/page.md"\ntext = "takes 3 seconds"\nequals = {"3" = "1 + 1"}\n'
     root = tree("It takes 3 seconds.\n", entry)

@@ -36,6 +36,8 @@ FLOATING = rc.Displaced(weight=[1.0, 1.0, 2.0], centroid=0.4, radius_of_gyration
 FLOATS = {"displaced": rc.Displaced(weight=[1, 0, 0]), "fluid": "turning"}
 BUOY = {"displaced": rc.Displaced(weight=1.0), "flywheels": rc.Flywheel(momentum=3.0)}
 SPRING = rc.Support(stiffness=5.0)
+ARM = rc.Rig(rc.Chain(mass=[1.0, 2.0], length=1.0), support=rc.Support(radius=0.4))
+GOVERNOR = rc.SleeveGovernor(ball_mass=2.0, arm=0.3, lower_arm=0.3, sleeve_mass=5.0)
 CAROUSEL = rc.Rig(CHAIN, support=rc.Support(stiffness=5.0, radius=0.2))
 SIX = rc.Chain.uniform_rods(6)
 PLUCKED = np.ones(CHAIN.size) / 9
@@ -142,6 +144,9 @@ RESULTS = {  # every kind of result, made when a test asks for it
     "SteadyShapes, on arms": lambda: rc.steady_shapes(rc.Held(SIX, span=0.5, **ARMS), angular_speed=9.0),
     "SteadyShape, weightless": lambda: rc.steady_shapes(rc.Held(NAMED, span=0.5, weightless=True), angular_speed=9.0)[0],
     "SteadyShape of a held cord": lambda: rc.steady_shapes(rc.Held(rc.Cord(1.0, mass=1.0), tension=26.0), conical_height=0.05)[0],
+    "Campbell": lambda: rc.campbell(ARM, [1.0, 2.0]),
+    "DragShape": lambda: rc.drag_shape(ARM, rc.Drag(coefficient=1.0, diameter=0.05), angular_speed=2.0),
+    "GovernorEquilibria": lambda: GOVERNOR.equilibria(angular_speed=9.0),
     "BufferImpact": lambda: rc.BufferImpact(front_mass=1, rear_mass=3, buffer_stiffness=10, coupling_stiffness=1, speed=2),
     "GovernorMotion": lambda: rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5),
     "GovernorMotion, revolving": lambda: rc.GovernorMotion(angular_speed=2.0, pendulum_length=1.0, angle=3.0, angle_rate=-4.0),
@@ -284,8 +289,9 @@ OTHER_ARRAYS = {  # arrays of a file, and what is said of it
     "a list": ({"revchain": "[]"}, "attribute 'get'"),
     "no JSON": ({"revchain": "no JSON"}, "Expecting value"),
     "no result": ({"revchain": '{"format": "revchain 2"}'}, "'result'"),
-    "another version": ({"revchain": '{"format": "revchain 99"}'}, "save the result again"),
-    "the version before": ({"revchain": '{"format": "revchain 1"}'}, "save the result again"),
+    "a format of nobody": ({"revchain": '{"format": "revchain 1"}'}, NOT_OURS),
+    "no format": ({"revchain": '{"result": 3}'}, NOT_OURS),
+    "no number": ({"revchain": '{"format": 3}'}, NOT_OURS),
 }
 
 
@@ -293,6 +299,34 @@ OTHER_ARRAYS = {  # arrays of a file, and what is said of it
 def test_other_arrays(npz, arrays, words):
     np.savez(npz, **{name: np.array(array) for name, array in arrays.items()})
     refused(npz, words)
+
+
+LATER = {  # headers of files of later versions, and what is said of them
+    "format": ({"format": "revchain 99", "version": "9.8.7"}, "has format 99, but .* up to 2; it was saved by revchain 9.8.7: "),
+    "no version": ({"format": "revchain 3"}, "has format 3, but .*; install a later version$"),
+    "no word": ({"format": "revchain 3", "version": "9.8\n7"}, "has format 3, but .*; install a later version$"),
+    "kind": (
+        {"format": "revchain 2", "version": "9.8.7", "result": {"result": "Knot", "module": "revchain.knots", "state": {}}},
+        "holds a Knot, which revchain .* does not know; it was saved by revchain 9.8.7: install that version or a later one$",
+    ),
+    "kind inside": (
+        {"format": "revchain 2", "result": {"result": "Modes", "state": {"x": {"result": "Knot", "state": {}}}}},
+        "holds a Knot, which revchain .* does not know; install a later version$",
+    ),
+}
+
+
+@pytest.mark.parametrize(("header", "words"), LATER.values(), ids=LATER)
+def test_files_of_later_versions(npz, header, words):
+    np.savez(npz, revchain=np.array(json.dumps(header)))
+    refused(npz, words)
+
+
+def test_the_version_that_saved_a_result_is_in_the_file(npz):
+    rc.modes(CHAIN).save(npz)
+    with np.load(npz) as file:
+        said = json.loads(str(file["revchain"]))
+    assert (said["format"], said["version"]) == ("revchain 2", rc.__version__)
 
 
 def test_a_pickled_array_is_refused_by_name(npz, monkeypatch):

@@ -65,8 +65,8 @@ for length in (200.0, 400.0, 600.0, 800.0, 1000.0):
     print(f"{length:8.0f}  {periods:37}  {moves[0]:29.3f}  {moves[1]:11.3f}")
 
 # %%
-# The sea has most of its energy at periods from 6 s to 14 s. A length is critical where the period
-# of a mode is in that range, the grey band.
+# Here most waves have periods from 6 s to 14 s. A length is critical where the period of a mode is in
+# that range, the grey band.
 
 WAVES = (6.0, 14.0)  # s
 lengths = np.linspace(100.0, 1200.0, 111)

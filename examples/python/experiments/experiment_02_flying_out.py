@@ -36,8 +36,8 @@ for row in zip(table, height, np.degrees(swing.inclination), swing.radius, swing
     print("{:14.2f}  {:17.4f}  {:20.2f}  {:9.4f}  {:14.3f}".format(*row))
 
 # %%
-# On the left, two threads at four speeds: at one speed both plummets are at one level. On the
-# right, the inclination against the speed. It starts at 0, at the speed at which the pendulum
+# On the left, two threads at four speeds: both plummets are at one level where both have left the
+# vertical. On the right, the inclination against the speed. It starts at 0, at the speed at which the pendulum
 # leaves the vertical, and rises steeply.
 
 figure, (side, curve) = panels(2, [1.3, 1], height=4.0)

@@ -28,7 +28,7 @@ plt.show()
 # %%
 # The hand is 10 mm from the axis. Below its first whirl speed (Greenhill 1908, section 1
 # (9)) the chain is on the same side as the hand. At each whirl speed the free end changes to the
-# other side. Between two whirl speeds there is a speed at which a given link stays on the axis.
+# other side. Above the first whirl speed the chain crosses the axis.
 
 print("turns a second  modes passed  free end, mm  over the hand's 10 mm")
 for turns in (0.5, 0.9, 1.1, 1.5, 2.2, 2.4):
@@ -36,7 +36,8 @@ for turns in (0.5, 0.9, 1.1, 1.5, 2.2, 2.4):
     print(f"{turns:14.1f}  {int(at.modes_below):12}  {1000 * float(at.offset):12.2f}  {float(at.amplification):8.3f}")
 
 # %%
-# The chain is plucked in the middle by 10 mm and released. Three modes have nearly all the energy.
+# The chain is plucked in the middle by 10 mm and released. Its three slowest modes
+# have 86 % of the energy.
 
 plucked = HAND * np.interp(depth, [0, LENGTH / 2, LENGTH], [0, 1, 0])
 moments = np.linspace(0, 4, 2000)

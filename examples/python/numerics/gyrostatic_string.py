@@ -36,7 +36,7 @@ plt.show()
 # that plane (blue) goes over into motion across it (pink), and back. The bars above are the plane
 # seen along the string.
 #
-# Greenhill (1908) section 2, after Thomson: a vibration in a plane is the sum of two circular
+# Greenhill (1908) section 8, after Thomson: a vibration in a plane is the sum of two circular
 # waves, one with the spin and one against it. Their wavelengths differ, so the plane turns from
 # link to link.
 

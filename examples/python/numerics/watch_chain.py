@@ -50,7 +50,7 @@ modes.plot()
 plt.show()
 
 # %%
-# To try next: ``rc.Chain.uniform_rods(12, length=0.36)``. The difference is about a hundred times
+# To try next: ``rc.Chain.uniform_rods(12, length=0.36)``. The differences are 50 to 100 times
 # larger.
 #
 # Checked: the heights of the links are in 40 digits in

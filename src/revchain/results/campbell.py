@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -76,6 +76,11 @@ class Campbell(Result, row="speed", title="{summary}", notes=("{_remarks}",), sp
         "not seen.",
     )
     summary: Field[str] = Field("What was found, in words.", lambda c: c._words())
+
+    @classmethod
+    def _made(cls, core: Any = None, **parts: Any) -> Self:
+        parts["crossings"] = tuple(Crossing(*one) for one in parts["crossings"])  # a file has them as plain tuples
+        return super()._made(core, **parts)
 
     def _sheet(self, brief: bool = False) -> Sheet:
         sheet = super()._sheet(brief)

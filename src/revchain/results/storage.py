@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from collections.abc import Mapping
 from importlib import import_module
 from pathlib import Path
@@ -24,7 +25,7 @@ from .kinds import KINDS, restored
 if TYPE_CHECKING:
     from .base import Result
 
-FORMAT = "revchain 2"
+FORMAT = 2  # raised when files are written that earlier versions cannot read; files of each earlier number are read
 HEADER = "revchain"  # name of the entry that describes the contents of a file
 COMPRESSED = "holds arrays larger than the file, as revchain saves none; compute and save the result again"
 NOT_OURS = "is not a result that revchain saved, or was damaged since; compute and save it again"
@@ -32,6 +33,10 @@ NOT_OURS = "is not a result that revchain saved, or was damaged since; compute a
 
 class NotRead(ValueError):
     """The error for a file of which all that there is to say is known."""
+
+
+class UnknownKind(ValueError):
+    """The error for a result of a class that this version does not have, by its name."""
 
 
 WRONG = (  # what the readers raise for a file that is damaged or that somebody else made
@@ -47,7 +52,8 @@ def save(result: Any, path: str | os.PathLike[str]) -> None:
     if ending == ".nc":
         _netcdf("saving .nc files")
         labelled = result.to_xarray()  # computes the fields of the table, so that they are saved, too
-    header = json.dumps({"format": FORMAT, "result": _packed(result, type(result).__name__, arrays, {})})
+    said = {"format": f"revchain {FORMAT}", "version": _version()}
+    header = json.dumps({**said, "result": _packed(result, type(result).__name__, arrays, {})})
     dataset = _dataset(labelled, header, arrays) if ending == ".nc" else None
     with naming(path), written_aside(path) as [aside]:
         if dataset is not None:
@@ -74,6 +80,7 @@ def load(path: str | os.PathLike[str]) -> Result:
     ------
     ValueError
         If the path has another ending, or the file does not contain a result or is damaged: the checksums of ``.npz`` find every changed number.
+        If a later version saved the result and this version cannot read it; the message says which version to install.
     ImportError
         If a package for ``.nc`` is not installed; the message says how to install it.
     OSError
@@ -129,11 +136,29 @@ def _loaded(header: Any, arrays: Mapping[str, Any]) -> Result:
     if header is None:
         raise NotRead(NOT_OURS)
     said = json.loads(str(header))
-    if said.get("format") != FORMAT:
-        other = said.get("format", "an earlier one")
-        raise NotRead(f"is a file of another version, {other}; compute and save the result again")
-    found: Result = _unpacked(said["result"], arrays, {})
+    number = re.fullmatch(r"revchain (\d{1,9})", str(said.get("format")))
+    if number and int(number[1]) > FORMAT:
+        raise NotRead(f"has format {number[1]}, but revchain {_version()} reads formats up to {FORMAT}; {_install(said)}")
+    if not number or int(number[1]) < FORMAT:
+        raise NotRead(NOT_OURS)
+    try:
+        found: Result = _unpacked(said["result"], arrays, {})
+    except UnknownKind as error:
+        raise NotRead(f"holds a {error}, which revchain {_version()} does not know; {_install(said)}") from None
     return found
+
+
+def _version() -> str:
+    from .. import __version__
+
+    return __version__
+
+
+def _install(said: Mapping[str, Any]) -> str:
+    """What to do with a file that this version cannot read, by the version in its header."""
+    version = said.get("version")
+    known = isinstance(version, str) and re.fullmatch(r"[\w.+-]{1,40}", version)
+    return f"it was saved by revchain {version}: install that version or a later one" if known else "install a later version"
 
 
 def _packed(value: Any, name: str, arrays: dict[str, Any], made: dict[int, str]) -> Any:
@@ -177,7 +202,7 @@ def _unpacked(value: Any, arrays: Mapping[str, Any], made: dict[str, Any]) -> An
         if value["result"] not in KINDS and str(value.get("module")).startswith("revchain.closed_forms."):
             import_module(value["module"])  # imported when they are first needed
         if value["result"] not in KINDS:
-            raise ValueError(f"holds a {value['result']}, which this version of revchain does not know")
+            raise UnknownKind(str(value["result"]))
         if state.get("_speed_unit", "s") not in SPEED_UNITS:
             raise ValueError(f"holds a result in the unit {state['_speed_unit']}, which is none of speeds")
         return restored(KINDS[value["result"]], state)

@@ -559,10 +559,10 @@ class Chain(System):
     @classmethod
     def _from_state(cls, state: Any) -> Chain:
         """The chain from its state, for every pickle protocol (the compiled class knows only some)."""
-        parts, by_mass, names, *order = state
+        parts, by_mass, names, order = state
         compiled = _core.Chain.__new__(_core.Chain)
         compiled.__setstate__(tuple(parts))
-        return cls._wrap(compiled, by_mass, names, *order)
+        return cls._wrap(compiled, by_mass, names, order)
 
     def _data(self) -> dict[str, Any]:
         core = self._compiled

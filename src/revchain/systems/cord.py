@@ -28,9 +28,9 @@ class CordData(NamedTuple):
     tip: float
     density: Any  # the exponent, or the state of a function
     by_mass: bool
-    particles: tuple[tuple[float, float], ...] = ()  # places, from the free end, and masses
-    tip_centroid: float = 0.0
-    tip_radius_of_gyration: float = 0.0
+    particles: tuple[tuple[float, float], ...]  # places, from the free end, and masses
+    tip_centroid: float
+    tip_radius_of_gyration: float
 
 
 class Cord(System):

@@ -251,9 +251,9 @@ class Held(System):
 
     @classmethod
     def _from_state(cls, state: Any) -> Held:
-        system, span, tension, weightless, *ends = state
-        lower, upper = (Support(**given) for given in ends) if ends else (None, None)
-        return cls(system, span=span, tension=tension, weightless=weightless, lower=lower, upper=upper)
+        system, span, tension, weightless, lower, upper = state
+        ends = {"lower": Support(**lower), "upper": Support(**upper)}
+        return cls(system, span=span, tension=tension, weightless=weightless, **ends)
 
     def _data(self) -> dict[str, Any]:
         by: dict[str, Any] = {"span": self.span} if self.span is not None else {"tension": self.tension}

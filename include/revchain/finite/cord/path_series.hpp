@@ -121,7 +121,7 @@ class PathSeries {
         arc_change[0] = change->arc, offset_change[0] = change->offset;
         pull_change[0] = change->pull, height_change[0] = change->height;
     }
-    /// With the unit weight known at compile time, fewer products save 5 % (bench/continuous.cpp).
+    /// With the unit weight known at compile time, some products are left out.
     template <bool unit_weight>
     void uniform(const Constants& constants) {
         if (has_change_)

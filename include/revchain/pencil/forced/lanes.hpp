@@ -110,8 +110,8 @@ inline constexpr std::size_t most_driven_together = 2 * most_doubles;
 /// Computes `driven` for `driven_together` drives, one in a SIMD lane, in words of two doubles,
 /// with a running bound like that of `certified_count`. All elements are in one unit. Drives near a
 /// resonance, or with a pin nearly a node, are left undecided. Calls `offset(lane, which, value)`
-/// for each requested pin, highest first. The bound is the relative error of the value. Cost a link
-/// and drive: 8 to 20 ns with AVX-512, 26 to 40 ns with two doubles (`bench_response`).
+/// for each requested pin, highest first. The bound is the relative error of the value. Cost:
+/// `bench_response`.
 template <bool turning, bool fused, class V, class Offsets>
 [[gnu::always_inline]] inline void driven_lanes(
     const std::vector<SignedElement<Wide<double>>>& elements, const Driving* at, DrivenPins& wanted,

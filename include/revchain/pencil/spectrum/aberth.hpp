@@ -275,9 +275,8 @@ inline bool solve(const LumpedLinks& links, double tolerance, AberthSpectrum& re
 /// Ehrlich's and Aberth's iteration finds all zeros at once, mostly in three rounds. Then come
 /// Rayleigh quotients of twisted vectors, whose error is the square of the vectors'. Residuals give
 /// as many disjoint intervals as eigenvalues, and so number them. Accuracy, measured: 4 ulp;
-/// proved: about 20 ulp for 10 links, 33 for 100. Cost (AVX-512): 0.7 microseconds for 10 plummets,
-/// 0.9 for 10 rods, 54 and 80 for 100 (bench_small). Preconditions: 1 <= size <= most_links; X >=
-/// 0, M positive definite. Numbers beyond 2^-64 ... 2^64 also give false.
+/// proved: about 20 ulp for 10 links, 33 for 100. Cost: bench_engines. Preconditions: 1 <= size <=
+/// most_links; X >= 0, M positive definite. Numbers beyond 2^-64 ... 2^64 also give false.
 inline bool aberth_spectrum(const aberth::LumpedLinks& links, double tolerance,
                             AberthSpectrum& result) {
     return links.rigid ? aberth::solve<true>(links, tolerance, result)

@@ -269,10 +269,8 @@ class Candidates {
 /// below 40 ulp the nearest double, bound 0.51 ulp, unrounded mostly 1e-20 (2e-18 proved).
 /// Otherwise within 4 ulp for the chains of the tests (N up to 10,000, there a sample of the
 /// modes), and random compound pendulums up to 45 ulp with a tolerance of 1e-11, 6 with 128 ulp.
-/// Proved: 28 ulp plummets, 36 rods, more where neighbours nearly coincide. Cost (AVX-512, N =
-/// 10,000) per mode and link: 0.85 ns for equal plummets, 1.3 for random ones, 1.5 and 2.0 for
-/// rods, portable build (bench_all_modes); to the last digit 1.3 to 2 more. Preconditions: 0 <=
-/// first, last <= total <= size.
+/// Proved: 28 ulp plummets, 36 rods, more where neighbours nearly coincide. Cost: bench_engines.
+/// Preconditions: 0 <= first, last <= total <= size.
 template <Real S>
 std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide,
                                                const spectrum::LumpedChain& chain, Index first,
