@@ -27,6 +27,7 @@ which the tests run.
 import argparse
 import ast
 import math
+import os
 import re
 import subprocess
 import sys
@@ -275,7 +276,10 @@ def check(claim: dict[str, Any], names: dict[str, Any], root: Path, run: bool) -
             found = measured(root, names["measure"])
             took = [(written, found[name]) for written, name in claim["measured"].items()]
         return Result(all(as_long(*each) for each in took), ", ".join(f"{value:.2g} s" for _, value in took))
-    done = subprocess.run(claim["run"], shell=True, cwd=root, capture_output=True, text=True)
+    paths = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])  # of this Python first
+    done = subprocess.run(
+        claim["run"], shell=True, cwd=root, capture_output=True, text=True, env={**os.environ, "PATH": paths}
+    )
     match = re.search(claim["says"], done.stdout + done.stderr, re.S)
     return Result(bool(match), " ".join(match[0].split()) if match else "not printed: " + claim["says"])
 
