@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Verdicts on stability of what is held at both ends, in both frames, against motions integrated step by step
-(support/motion_of_pins.py); cords against the limit of many links. By hand: ``python tests/python/test_held_verdicts.py 1500``
-tries so many random systems."""
+(support/motion_of_pins.py); cords against the limit of many links. By hand, ``PYTHONPATH=tests/python/support python
+tests/python/test_held_verdicts.py 1500`` tries so many random systems."""
 
 import math
 import sys
