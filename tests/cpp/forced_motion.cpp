@@ -44,6 +44,7 @@ std::vector<Z> exact_offsets(const Rig& rig, double gravity, double n, By by, do
 
 struct Checked {
     Index rows = 0, poor = 0;
+    double worst = 0;  ///< error over the largest offset
 };
 Checked check(Index count, std::uint64_t seed, const support::DampedOptions& options) {
     support::Random random(seed);
@@ -68,7 +69,7 @@ Checked check(Index count, std::uint64_t seed, const support::DampedOptions& opt
         }
         CAPTURE(k, rig.size(), n, int(by), static_cast<double>(off), found.error_estimate[0]);
         REQUIRE(found.resonant[0] == 0);
-        REQUIRE(off <= 1e-12);
+        result.worst = std::max(result.worst, static_cast<double>(off));
         ++result.rows, result.poor += off > 10 * Quad(found.error_estimate[0]) ? 1 : 0;
         REQUIRE(found.error_estimate[0] <= 1e-10);
     }
@@ -79,16 +80,19 @@ Checked check(Index count, std::uint64_t seed, const support::DampedOptions& opt
 
 TEST_CASE("random rigs driven by radius, acceleration and force: offsets to the last digit", "[linear]") {
     for (const Checked& each : {check(400, 1, {}), check(200, 2, {.momentum = true}), check(200, 3, {.stands = true}),
-                                check(100, 4, {.extreme = true, .most = 6}), check(300, 5, {.drag = true})})
+                                check(100, 4, {.extreme = true, .most = 6}), check(300, 5, {.drag = true})}) {
         CHECK(each.poor == 0);
+        CHECK(each.worst <= 1.6e-16);  // half an ulp of the real and of the imaginary part
+    }
 }
 
 TEST_CASE("10,000 random rigs driven", "[.slow]") {
     for (const Checked& each :
          {check(5000, 11, {}), check(2000, 12, {.momentum = true}), check(2000, 13, {.stands = true}),
           check(1000, 14, {.extreme = true, .most = 6}), check(5000, 15, {.drag = true})}) {
-        WARN(each.rows << " rigs, " << each.poor << " estimates below a tenth of the error");
+        WARN(each.rows << " rigs, " << each.poor << " estimates below a tenth of the error, largest error " << each.worst);
         CHECK(each.poor * 100 <= each.rows);
+        CHECK(each.worst <= 1.6e-16);
     }
 }
 

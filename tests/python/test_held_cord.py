@@ -224,6 +224,38 @@ def test_sensitivity_of_a_density_function():
         rc.modes(function, 1).uncertainty(exponent=0.1)
 
 
+def test_sensitivity_in_forty_digits():
+    """To 1e-12 of the height over the datum, by heights from zeros of Bessel functions."""
+
+    def check(found, height, value):
+        """`height(x)`: with this datum at x."""
+        with mp.workdps(40):
+            x, step = mp.mpf(value), mp.mpf(10) ** -9
+            slope = mp.fdot((1, -8, 8, -1), [height(x * (1 + step * k)) for k in (-2, -1, 1, 2)]) / (12 * x * step)
+            assert abs(mp.mpf(float(found)) - slope) * x <= 1e-12 * height(x)
+
+    def root(f, guess):
+        return mp.findroot(f, (mp.mpf(guess) * (1 - mp.mpf(10) ** -8), mp.mpf(guess)))
+
+    length, mass, tip = 1.3, 2.0, 0.3
+    m = rc.modes(rc.Cord(length, mass=mass, tip_mass=tip), 1, first=2)
+
+    def with_tip(mass, tip):
+        def cross(x):
+            low, high = 2 * mp.sqrt(length * tip / mass / x), 2 * mp.sqrt(length * (tip / mass + 1) / x)
+            return mp.bessely(2, low) * mp.besselj(0, high) - mp.besselj(2, low) * mp.bessely(0, high)
+
+        return root(cross, float(m.conical_height[0]))
+
+    check(m.sensitivity.mass[0], lambda x: with_tip(x, mp.mpf(tip)), mass)
+    check(m.sensitivity.tip_mass[0], lambda x: with_tip(mp.mpf(mass), x), tip)
+    for power in (0.1, 2.0):
+        m = rc.modes(rc.Cord(1.0, density=power), 1, first=3)
+        zero = 2 * math.sqrt((power + 1) / m.conical_height[0])
+        check(m.sensitivity.exponent[0], lambda x, z=zero: 4 * (x + 1) / root(lambda y: mp.besselj(x, y), z) ** 2, power)
+    check(rc.modes(TAUT, 2).sensitivity.tension[1], lambda x: _height(ROPE, x, 2), TAUT.tension)
+
+
 def test_uncertainty():
     m = rc.modes(CORDS["thicker with a tip"], 2)
     u = m.uncertainty(mass="2 %", tip_mass=0.01, length=0.03, exponent=0.1)

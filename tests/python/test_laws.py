@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 import revchain as rc
 
 ULP = 2.0**-52
-CONDITION = 6  # of a height in each of the numbers given, the largest found in extreme chains (docs/theory/matrices.md)
+CONDITION = 6  # of a height in each of the numbers given, the largest found in extreme chains
 
 
 @st.composite
