@@ -132,9 +132,10 @@ CordStartNodes nodes_of(const Cord& cord, const std::array<CordFunction, 2>& sta
         ends.push_back(static_cast<double>(i) / static_cast<double>(even));
     if (places != nullptr)
         for (const double s : *places) ends.push_back(std::sqrt(s / length));
-    if (!cord.is_uniform()) {
+    if (!cord.is_uniform() || (!start[0] && !start[1]))  // powers and logarithms at the free end
         for (int i = 1; i < 40; ++i)
             ends.push_back(std::ldexp(1.0, -i) / static_cast<double>(even));
+    if (!cord.is_uniform()) {
         const auto density = cord.line_density();
         for (const auto& piece : density->pieces())
             ends.push_back(std::sqrt((piece.middle + piece.half) / length));
