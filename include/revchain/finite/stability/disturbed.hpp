@@ -11,15 +11,6 @@
 #include "revchain/numeric/double_double.hpp"
 #include "revchain/pencil/complex/gyroscopic.hpp"
 
-namespace revchain::inline REVCHAIN_BUILD {
-
-REVCHAIN_LAZY
-bool isinf(const DoubleDouble& x) { return std::isinf(x.high()); }
-REVCHAIN_LAZY
-bool isnan(const DoubleDouble& x) { return std::isnan(x.high()); }
-
-}  // namespace revchain
-
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// Returns an orthonormal basis of the complement of the columns.

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "revchain/numeric/compiled.hpp"
-#include "revchain/numeric/complex_words.hpp"
+#include "revchain/numeric/called_words.hpp"
 #include "revchain/numeric/scalar.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
