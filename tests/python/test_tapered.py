@@ -38,7 +38,7 @@ def test_the_exponent_is_remembered_and_forgotten(tmp_path):
     assert len(state) == 8 and len(told._compiled.__getstate__()) == 7
     for wrong, says in ((-1.0, "exponent must be above -1"), (7.0, r"links\[0\] is not as Chain::tapered makes it")):
         with pytest.raises(ValueError, match=says):
-            rc.Chain._from_state(((*state[:7], wrong), False, None))
+            rc.Chain._from_state(((*state[:7], wrong), False, None, "free end first"))
 
 
 @pytest.mark.parametrize("exponent", [-0.95, -0.3, 0.5, 1.0, 6.0, 30.0])

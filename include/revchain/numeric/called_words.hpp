@@ -6,7 +6,7 @@
 
 #include "revchain/numeric/double_double.hpp"
 
-namespace revchain::inline REVCHAIN_BUILD {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// A DoubleDouble for dense matrices of Eigen, whose operations are function calls. Eigen's solvers
 /// compile three times faster than with DoubleDouble, whose operations GCC inlines at hundreds of
@@ -57,12 +57,14 @@ inline std::complex<CalledWords> operator/(const std::complex<CalledWords>& x,
             (x.imag() * y.real() - x.real() * y.imag()) / size};
 }
 
-}  // namespace revchain
+}  // namespace revchain::detail
 
 template <>
-struct std::numeric_limits<revchain::CalledWords> : std::numeric_limits<revchain::DoubleDouble> {};
+struct std::numeric_limits<revchain::detail::CalledWords>
+    : std::numeric_limits<revchain::DoubleDouble> {};
 
 template <>
-struct Eigen::NumTraits<revchain::CalledWords> : Eigen::GenericNumTraits<revchain::CalledWords> {
+struct Eigen::NumTraits<revchain::detail::CalledWords>
+    : Eigen::GenericNumTraits<revchain::detail::CalledWords> {
     enum { ReadCost = 2, AddCost = 20, MulCost = 20 };
 };

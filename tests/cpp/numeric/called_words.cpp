@@ -5,7 +5,7 @@
 
 #include "support/catch.hpp"
 
-using revchain::CalledWords, revchain::DoubleDouble;
+using revchain::DoubleDouble, revchain::detail::CalledWords;
 using Complex = std::complex<CalledWords>;
 
 TEST_CASE("complex numbers of two words: products and quotients", "[core]") {

@@ -186,7 +186,7 @@ Stability judged(StabilityFrame frame, const PulledLinks& links, Means) {
     constexpr Index most_in_words = 100;  ///< unknowns; so many take half a second
     if constexpr (detail::is_thorough<Means>)
         if ((!found || found->is_spoilt) && d.in_plane.rows() + d.mass.rows() <= most_in_words)
-            if (auto finer = in(disturbed_in<CalledWords>(links))) found = std::move(finer);
+            if (auto finer = in(disturbed_in<detail::CalledWords>(links))) found = std::move(finer);
     if (!found) {
         constexpr std::string_view rule =
             detail::is_thorough<Means> ? "every motion must move some mass; pins that move"
