@@ -120,17 +120,29 @@ pip() {
   "$venv/bin/python" -m pip --disable-pip-version-check --quiet "$@"
 }
 
-# The package with its EXTRAS, showing ninja's count; all that was printed, where it fails. The module is compiled for
-# this machine, in the folder of the preset dev: the tests link what it is made of.
+# What the package with EXTRAS needs, a requirement a line.
+requirements() {
+  "$venv/bin/python" -c 'import re, sys, tomllib
+project = tomllib.load(open(sys.argv[1], "rb"))["project"]
+def needed(extras):
+    for extra in extras:
+        for each in project["optional-dependencies"][extra]:
+            own = re.fullmatch(r"revchain\[(.*)\]", each)
+            yield from needed(own[1].split(",")) if own else [each]
+print(*project["dependencies"], *needed(sys.argv[2].split(",")), sep="\n")' "$root/pyproject.toml" "$1"
+}
+
+# The package, showing ninja's count; all that was printed, where it fails. The module is compiled for this machine, in the
+# folder of the preset dev: the tests link what it is made of.
 build_package() {
   log=$root/build/python.log
   mkdir -p "$root/build"
-  { "$venv/bin/python" -m pip --disable-pip-version-check --verbose install --no-build-isolation \
+  { "$venv/bin/python" -m pip --disable-pip-version-check --verbose install --no-build-isolation --no-deps \
     --config-settings=build-dir="$root/build/dev" --config-settings=build.targets=_core \
     --config-settings=cmake.define.REVCHAIN_PORTABLE=OFF --config-settings=cmake.define.REVCHAIN_BUILD_TESTS=AUTO \
     --config-settings=cmake.define.REVCHAIN_BUILD_COMPILED=OFF --config-settings=cmake.define.REVCHAIN_BUILD_BENCH=ON \
     --config-settings=cmake.define.REVCHAIN_BUILD_EXAMPLES=ON \
-    "${root}[$1]" 2>&1 && echo built || echo failed; } |
+    "$root" 2>&1 && echo built || echo failed; } |
     tee "$log" | "$venv/bin/python" -c 'import re, sys
 for line in sys.stdin:
     if step := re.match(r" *(\[\d+/\d+\].*)", line):
@@ -155,7 +167,12 @@ set_up() {
 print(*tomllib.load(open(sys.argv[1], "rb"))["build-system"]["requires"], sep="\n")' "$root/pyproject.toml")
   # The build asks every installed package for CMake files; one that cannot be imported would end it.
   "$venv/bin/python" -c 'import revchain' 2>/dev/null || pip uninstall -y revchain 2>/dev/null
-  build_package "$extras"
+  # Other packages meanwhile; Python compiles of them what is imported.
+  requirements "$extras" >"$venv/requirements.txt"
+  pip install --no-compile -r "$venv/requirements.txt" &
+  others=$!
+  build_package
+  wait "$others"
   mv "$stamp.new" "$stamp"
 }
 
