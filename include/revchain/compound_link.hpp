@@ -5,7 +5,8 @@
 #include "revchain/numeric/product.hpp"
 #include "revchain/numeric/status.hpp"
 
-/// One rigid link of any form that hangs by a pin, and its whirl round an axis through the pin.
+/// One rigid link that hangs by a pin, and its whirl round the vertical axis through the pin. Its
+/// inertia about the line from the pin to the centroid is neglected, as for a rod.
 ///
 ///     const revchain::CompoundLink<double> bar{0.5, 0.2887};  // a uniform bar of length 1
 ///     bar.pendulum_length();                                  // 0.666695

@@ -95,7 +95,8 @@ struct CordModesOptions {
 /// `LineDensity::error` plus `rounding_at_jumps`. With particles or a bob it is larger by 3 ulp
 /// times the relative change of the height by that of a particle's place, the largest: 1e-14 as a
 /// rule (10,000 cords with weights 1e16 apart, tests/cpp/cord_particles.cpp). Offsets and slopes
-/// are within 1e-15 times the mode number of the largest one, with series within 1e-14. Cost: a
+/// are within 1e-15 times the mode number of the largest one, with series within 1e-14 for the
+/// first 7 modes. Cost: a
 /// closed form takes about a microsecond a mode; power series take 1 ms for each mode up to the
 /// last one requested. Throws InvalidArgument as `modes` of a chain, for `all_modes` (there are
 /// infinitely many), and with series for modes above number 1e5, a density too rough or a tip too
@@ -175,8 +176,8 @@ struct CordDiagramOptions {
 /// Method: `branch` from every mode. If no theorem counts the shapes, lists of shapes
 /// (`steady_shapes`) at `lists` heights are compared with the branches. A shape that no branch
 /// passes lies on an isolated branch, which is followed both ways. `complete` is true if a theorem
-/// counts the shapes (finite/cord/continuous_chain.hpp): a uniform cord, a power s^p without a tip
-/// or with p below 0, and one mode.
+/// counts the shapes (finite/cord/continuous_chain.hpp): those of a uniform cord, of a power s^p
+/// without a tip or with p below 0, and of every cord with at most one mode.
 /// Accuracy: as `branch`. Throws InvalidArgument as `branch`, and for `lists` below 1.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordBranches branches(const Cord& cord, const CordDiagramOptions& options);

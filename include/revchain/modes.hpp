@@ -123,9 +123,9 @@ struct Modes {
 /// `revchain::compiled` they are included here. `Modes::method` names the method used. Windows are
 /// decided by proved counts (`ModeCounter::within`), not by rounded heights. Accuracy without
 /// `rtol`: conical heights within 0.501 ulp of the exact ones of the stored numbers (measured, N up
-/// to 1e5, ten kinds of chain: tests/cpp/modes.cpp); the bound is at most 2 ulp, proved by counts.
-/// With `rtol`: the bound is at most `rtol`, proved by counts. Shapes are within 5.6e-17 of the
-/// largest offset (3.5e-16 / gap if weights need several units; rtol / gap with a looser `rtol`),
+/// to 1e5, ten kinds of chain: tests/cpp/modes.cpp); the bound is at most 2 ulp, proved. With
+/// `rtol`: it is at most `rtol`, proved, unless the status says otherwise. Shapes are within
+/// 5.6e-17 of the largest offset (3.5e-16 / gap if weights need several units; rtol / gap with a looser `rtol`),
 /// where gap, at most 1, is the relative distance to the next height. If `Wide<T>` is T itself
 /// (DoubleDouble, a scalar of your own), errors and bounds grow with N. Results are bitwise the
 /// same for any number of threads. Cost in double: 20 ns per link and mode, 30 ns with shapes; 500

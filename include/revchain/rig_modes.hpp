@@ -117,8 +117,8 @@ struct RigModes {
 /// speeds. There are 2N real ones if M > 0. Otherwise all heights or speeds are found at once
 /// (Ehrlich, Aberth) and proved in disjoint discs: at most 20,000 links and yielding supports.
 /// Accuracy, measured (tests/cpp/rig_modes.cpp): heights without momentum, speeds with it, within
-/// 0.501 ulp of the exact ones of the stored numbers. Bounds are 1 ulp by counts; shapes are as for
-/// chains. Cost: 50 ns per link and mode with shapes if all links hang in tension; O(N k) memory.
+/// 0.501 ulp of the exact ones of the stored numbers. Their bounds are at most 1 ulp by counts;
+/// shapes are as for chains. Cost: 50 ns per link and mode with shapes if all links hang in tension; O(N k) memory.
 /// Discs: O(N^2).
 /// Throws InvalidArgument for mode numbers below 1, gravity not positive, a window with low >=
 /// high, numbers together with a window, and too many links for discs. A bound that is not proved

@@ -24,7 +24,8 @@
 /// Greenhill (1908) §2, §6 and §8 (13)-(17). Lengths and weights in any units, angles in rad. Pairs
 /// of conical heights are roots of a quadratic, computed without a difference of nearly equal
 /// numbers; no product leaves the range of T. All heights are O(1). Functions throw InvalidArgument
-/// for lengths and weights that are not positive and finite.
+/// for numbers that are not finite, and for lengths and weights that are not positive unless a
+/// function says otherwise.
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// Two conical heights, the larger one (the slower mode) first.

@@ -118,7 +118,7 @@ def test_names_of_pins():
     assert names(CRANE) == ["free end of load", "pin 1, below hook block", "support"]
     assert names(rc.Chain(mass=[1.0, 1.0], length=1.0, names=["", "top"])) == ["free end", "pin 1, below top", "support"]
     assert names(rc.Rig(CRANE, inverted=True))[1] == "pin 1, above hook block"
-    assert names(rc.Held(CRANE, tension=1e5)) == ["lower end", "pin 1, above hook block", "upper end"]
+    assert names(rc.Held(CRANE, tension=1e5)) == ["lower end", "pin 1, below hook block", "upper end"]
     assert [CORD._pin_name(place) for place in (0, 7)] == ["free end", "point 7"]
     keys = [column.name for column in in_columns(rc.modes(rc.Chain(mass=[1.0] * 3, length=1.0, names=["a", "a", "a"]))._full())]
     assert len({*keys}) == len(keys) and keys[-3:] != keys[-4:-1]

@@ -106,7 +106,7 @@ def pins_among(caller: str, pins: Iterable[int], available: Collection[int]) -> 
 
 
 def pin_name(system: System, pin: int) -> str:
-    """Return the label of the curve of a pin, with the name of the link that ends there, in short lines."""
+    """Return the label of a pin's curve in short lines, with the name of a link that ends there."""
     return plain(textwrap.fill(system._pin_name(pin), LABEL_WIDTH))
 
 

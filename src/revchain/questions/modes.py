@@ -53,7 +53,7 @@ def modes(
         Number of modes, slowest first; 10 if left out, or all if there are fewer. A cord has infinitely many. For a rig
         with flywheels `count`, `first` and the windows (of absolute speeds) apply to each direction of rotation.
     first : int, optional
-        Number of the first mode; the slowest mode is 1. Slower modes are not computed.
+        Number of the first mode; the slowest mode is 1. Slower modes are not returned.
     conical_height : (low, high), optional
         Window of conical heights, m: all modes with ``low < conical height <= high``. `low` may be 0, `high` infinite.
     angular_speed : (low, high), optional
@@ -416,7 +416,7 @@ def count_modes(
     Returns
     -------
     numpy.int64 or ndarray of int64
-        Number of modes slower than each speed; shape of the argument. For a rig with flywheels a speed counts the modes
+        Number of modes slower than each speed; shape of the argument, broadcast against `gravity`. For a rig with flywheels a speed counts the modes
         in its own direction, and a height those of both directions.
 
     Raises

@@ -293,8 +293,8 @@ def load_study(path: str | os.PathLike[str]) -> Study:
     Raises
     ------
     SceneError
-        If the file cannot be read or is not a valid study. The error is a ValueError; it gives the file and, for each
-        problem, the line, column, key and reason.
+        If the file cannot be read or is not a valid study. The error is a ValueError; it gives the file and the reason
+        of each problem, with line, column and key where there are any.
 
     Examples
     --------

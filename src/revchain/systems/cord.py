@@ -251,7 +251,7 @@ class Cord(System):
         Raises
         ------
         ValueError
-            If `count` is below 1, or the density was given as a function.
+            If `count` is below 1, the density was given as a function, or the lowest link would have too little mass.
 
         Examples
         --------

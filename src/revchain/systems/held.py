@@ -150,7 +150,8 @@ class Held(System):
     def mode_count(self) -> int | None:
         """Number of modes of the straight chain; None for a cord.
 
-        It is N - 1 for N links, one more for each end on a spring, and one less for each movable pin without mass.
+        It is N - 1 for N links, one less for each movable pin without mass and, under a tension, one more for each end on a
+        spring.
         """
         if self._is_cord:
             return None

@@ -101,7 +101,7 @@ class System(Unchangeable):
         raise NotImplementedError
 
     def _pin_name(self, pin: int) -> str:
-        """Name of a pin for legends and tables, with the name of the link that ends there."""
+        """Name of a pin for legends and tables; of an inner pin with the name of the link whose lower end it is."""
         last = self.size
         if self._is_held and pin in (0, last) and last:
             return "lower end" if pin == 0 else "upper end"
@@ -113,7 +113,7 @@ class System(Unchangeable):
         name = names[pin] if names is not None else ""
         if pin == 0:
             return f"free end of {name}" if name else "free end"
-        return f"pin {pin}, {'above' if self._is_held or self._stands[pin] else 'below'} {name}" if name else f"pin {pin}"
+        return f"pin {pin}, {'above' if not self._is_held and self._stands[pin] else 'below'} {name}" if name else f"pin {pin}"
 
     def _link_name(self, link: int) -> str:
         """Name of a link for legends and tables, with its number in the caller's order."""

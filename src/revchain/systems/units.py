@@ -143,7 +143,7 @@ def _numbers_of(text: Any) -> Any:
 
 
 def has_units(value: Any) -> bool:
-    """Return whether a value is or contains text or a pint quantity, so that it must be converted."""
+    """Return whether a value, or an item of a list or tuple, is text or a pint quantity and must be converted."""
     value = unpacked(value)
     if isinstance(value, str) or hasattr(value, "dimensionality"):
         return True
