@@ -69,8 +69,8 @@ struct Branch {
     Index mode = 0;  ///< at which it leaves the vertical; 1 also from rest; 0 if isolated
     BranchBirth birth = BranchBirth::vertical;
     /// For each point. `tip_inclination` is that of the lowest link, rad, `tip_radius` the offset
-    /// of the free end, `top_tension` the magnitude of the reaction at the support. Others are as
-    /// in SteadyShape.
+    /// of the free end, `top_tension` the tension at the topmost pin. Others are as in
+    /// SteadyShape.
     std::vector<double> arc, conical_height, tip_inclination, tip_radius, top_tension,
         moment_of_inertia, effective_energy;
     std::vector<int> half_waves;     ///< number of sign changes of the offsets, plus 1

@@ -196,7 +196,7 @@ struct HeldDiagramOptions {
 
 /// The branches of a chain or cord held at a span, one for each number of half waves from 1 to the
 /// last with a shape at the greatest speed (for a cord at most 1000). A branch begins at that
-/// speed, at the first shape that `steady_shapes` lists, and goes to slower speeds, through folds.
+/// speed, at a shape with its number of half waves, and goes to slower speeds, through folds.
 /// It ends where a link becomes slack or turns over (`slack`), the cord hangs folded along the axis
 /// (`folded`), the greatest speed is reached again (`speed`), the conical height is 10,000 lengths
 /// (`rest`: off the axis), or 3000 steps are done (`budget`). `HeldBranch::mode` numbers the

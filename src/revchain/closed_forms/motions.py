@@ -289,7 +289,8 @@ class SkippingRope(Solved, row="rope", title="SkippingRope: {self._waves}"):
         """Return the rope with another span but equal length and angular momentum.
 
         span: The new span, positive, less than the length. The rope must have a speed (`has_speed`).
-        returns: The new rope. The work of drawing it there is the gain in ``moment_of_inertia * angular_speed**2 / 2``.
+        returns: The new rope. The work of drawing it there, over the mass per length, is the gain in
+        ``moment_of_inertia * angular_speed**2 / 2``.
 
         >>> rope = rc.SkippingRope(span=2.0, length=3.0, angular_speed=12.0)
         >>> round(rope.drawn_to(2.5).angular_speed, 4)

@@ -50,7 +50,7 @@ class Mechanism:
         Whether a link has a wheel that carries an angular momentum along it.
     pin_stiffness, pin_damping, rest : array, shape (N,)
         Springs and dashpots at the upper pins, and the angles of the hinges at which the springs are relaxed: 0, or a half
-        turn where a link stands on one that hangs, or hangs from one that stands.
+        turn where a link and the one above it point opposite ways; the support counts as hanging.
     radius, stiffness, damping, carriage : float
         Radius, stiffness and damping of the support, and the mass that moves with it; a firm support has infinite
         stiffness, a trolley 0.

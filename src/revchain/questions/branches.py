@@ -187,7 +187,8 @@ def branches(
     Notes
     -----
     A listed shape that matches no branch lies on an isolated branch, which is then followed in both directions.
-    ``consistent`` is true if every list is proved complete and each of its shapes matches exactly one branch.
+    ``consistent`` is true if all lists are proved complete, their shapes match the branches one to one, and no branch stops
+    early, as at a slack link.
 
     An isolated branch that is a closed loop can begin and end between two of the 16 speeds, so that no list contains it.
     Interval arithmetic therefore splits the plane of conical height and tangent of the lowest link until each part has
@@ -196,8 +197,8 @@ def branches(
     proof relies on `branch`, whose steps are checked, not proved.
 
     For rigs (on springs, on an arm, with flywheels, in fluids) the proof needs all links in tension at every speed up
-    to the given one. Below the first critical speed such a rig has exactly one shape if its support is off the axis,
-    and only the straight one if it is on the axis. If stiffness times conical height is less than the weight that
+    to the given one. Below the first critical speed such a rig has exactly one hanging shape if its support is off the
+    axis, and only the straight one if it is on the axis. If stiffness times conical height is less than the weight that
     moves, a spring at the support cannot balance it, and nothing is proved; ``remark`` gives these heights.
 
     A link becomes horizontal only at infinite speed, or at a speed where a flywheel takes its tension, so a branch never
