@@ -62,8 +62,8 @@ struct DampedModes {
 /// bound is infinite and `error_estimate` has the size of the last correction. Accuracy: every
 /// exponent is within `error_bound`, which is usually below 1e-15 (tests/cpp/damped_modes.cpp).
 /// Cost O(N^3).
-/// Throws InvalidArgument for mode numbers below 1, gravity not positive, more than 1000 links, a
-/// fluid that turns, and numbers too far apart for the first-order form.
+/// Throws InvalidArgument for mode numbers below 1, gravity not positive, more than 1000 links,
+/// dashpots in a fluid that turns, and numbers too far apart for the first-order form.
 REVCHAIN_DECLARE
 [[nodiscard]] DampedModes damped_modes(const Rig& rig, const DampedModesOptions& options = {});
 

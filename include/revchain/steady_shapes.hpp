@@ -138,8 +138,9 @@ REVCHAIN_DECLARE
 /// With b > 0 tangents of both signs are searched. The pull of a link is tension + n
 /// momentum/length. If it is negative (a wheel against the rotation, a float), the link leans
 /// against its load and is followed along each inclination. `complete` is also false if a link
-/// leans against its load in a rig of many links, or if lambda E equals the total moving weight, to
-/// rounding. Pins may then be at any distance, and the search ends far beyond the chain's reach.
+/// leans against its load in a rig of so many links that the budget is spent, or if lambda E equals
+/// the total moving weight, to rounding. Pins may then be at any distance, and the search ends far
+/// beyond the chain's reach.
 /// Throws InvalidArgument as for chains, but a negative speed is the backward direction. Also
 /// throws for gravity not positive and finite, an effective tension that vanishes, and a lowest
 /// link whose moving weights balance about its pin.

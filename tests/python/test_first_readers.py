@@ -146,6 +146,9 @@ def test_words_for_a_trolley(tmp_path):
     assert "after 2 s the free end of load sways" in repr(scene.swing())
     heavier = of(tmp_path, TROLLEY.replace("500", "5000") + "[ask.swing]\nsupport_time = [0, 2]\nsupport_velocity = [1, 0]\n")
     assert heavier.swing().offset == pytest.approx(scene.swing().offset, abs=1e-12)
+    free = TROLLEY.replace("mass = 500", 'stiffness = "0 N/m"\ndamping = 5')
+    damped = of(tmp_path, free + "[ask.swing]\nsupport_time = [0, 2]\nsupport_velocity = [1, 0]\n")
+    assert note in repr(damped.swing()) and damped.swing().offset == pytest.approx(scene.swing().offset, abs=1e-12)
     pushed = of(tmp_path, TROLLEY + "[ask.swing]\nsupport_time = [0, 2]\nsupport_force = [1, 0]\n")
     assert "prescribed" not in repr(pushed.swing())
 

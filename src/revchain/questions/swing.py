@@ -113,7 +113,8 @@ def swing(
 
     With dashpots, springs at pins, a trolley or a moving support: each motion of `modes` is driven by its part of the
     load, exactly where that is a polynomial of time. If damping is critical, matrix exponentials go from time to time.
-    The dashpot of the support acts on its velocity over the ground. The straight system may then be unstable: it falls.
+    The dashpot of the support acts on its absolute velocity, also where the far end of its spring
+    moves. The straight system may then be unstable: it falls.
     Accuracy: 1e-14 of the sum of amplitudes. Cost: 3 times that of `modes`, and 20 ns for each link, mode and
     time.
 

@@ -27,7 +27,7 @@ Value = TypeVar("Value")
 
 
 class Field(Generic[Value]):
-    """One number, array or result of a result: computed (or read from the compiled result) on first use, then stored.
+    """One item of a result, of any type: given when the result is made, or computed on first use and then stored.
 
     Two results are equal if all fields that are parts are equal, and a file holds all of these. Other fields follow from
     them; a file holds those that were computed. A field without a function is a part unless it says ``part=False``.

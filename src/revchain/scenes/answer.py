@@ -248,12 +248,12 @@ _CHECKS: dict[str, Callable[[Any, Given, Whirling | None, Numbers], None]] = {
 }
 
 
-def notes_on(scene: Tables, question: str, table: Table, given: Given, options: bool) -> tuple[str, ...]:
+def notes_on(scene: Tables, question: str, table: Table, system: System, given: Given, options: bool) -> tuple[str, ...]:
     """Notes about what the answer to a question leaves out, and about plain numbers that were read in rad/s."""
     notes = []
     if question not in ("drag", "equilibria") and has_air_drag(scene):
         notes.append("the drag of air is left out here: air_drag acts in [ask.drag] only")
-    if question == "swing" and is_driven_trolley(scene.support, given.get("support")):
+    if question == "swing" and is_driven_trolley(system, given.get("support")):
         notes.append("the trolley moves as prescribed: its own mass and damping have no effect")
     unit = scene.speed
     if unit not in (UNSET, "rad/s"):
@@ -271,11 +271,12 @@ def notes_on(scene: Tables, question: str, table: Table, given: Given, options: 
     return tuple(notes)
 
 
-def is_driven_trolley(table: Any, motion: SupportMotion | None) -> bool:
+def is_driven_trolley(system: System, motion: SupportMotion | None) -> bool:
     """Return whether a support that rolls freely has a prescribed motion, so that its mass and its dashpot do not matter."""
-    if motion is None or table is UNSET or motion._what == "force":
+    if motion is None or motion._what == "force" or not isinstance(system, Rig):
         return False
-    return table.stiffness in (UNSET, 0, 0.0) and not all(each in (UNSET, 0) for each in (table.mass, table.weight))
+    support = system.support
+    return support.stiffness == 0 and (support.carriage > 0 or support.damping > 0)
 
 
 def answered(question: str, system: System, given: Given, gravity: float, progress: _core.Progress | None) -> Any:

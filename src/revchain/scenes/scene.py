@@ -342,7 +342,7 @@ class Scene(Tables, frozen=True, weakref=True):
                 numbers = Numbers("scene", options=options)
                 given = self._arguments(question, table, system, numbers)
                 numbers.done()
-            notes = () if question == "explain" else notes_on(self, question, table, given, options)
+            notes = () if question == "explain" else notes_on(self, question, table, system, given, options)
             found = answered(question, system, given, gravity, progress)
             return asked_in(unit, found, notes) if unit is not None or notes else found
         except ValueError as error:
