@@ -133,9 +133,10 @@ struct HeldCordShapesOptions {
 /// several links are slack at once, as beads can be without gravity, a small range stays undecided.
 /// Accuracy: inclinations of chains are correctly rounded up to an error of 1e-20, with a bound
 /// that is mostly proved (tests/cpp/held.cpp). Positions on cords are within 1e-13 of the length,
-/// with an estimated bound. A given tension is met to 1e-15, relative. Cost: about 100 sweeps of
-/// O(N), or 100 paths of a cord; for a tension some thousand. The proof of completeness of 9 rods
-/// at half their length takes 0.1 s; `budget` 0 omits it.
+/// with an estimated bound. A given tension is met to 1e-15 for cords, to
+/// 1e-12 for chains, relative. Cost: about 100 sweeps of O(N), or 100 paths of a cord; for a
+/// tension some thousand. The proof of completeness of 9 rods at half their length takes 0.1 s;
+/// `budget` 0 omits it.
 /// Throws InvalidArgument for a speed missing, not positive or not finite, g/n^2 outside the range
 /// of double, `max_half_waves` below 1, and weights more than 1e123 apart.
 REVCHAIN_DECLARE

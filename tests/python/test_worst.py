@@ -355,3 +355,20 @@ def test_a_datum_without_effect():
     assert worst.status == "success" and not worst.gap.any()
     some = rc.modes(bodies).uncertainty({"links[1].length": "1 %"}, worst=True).worst
     assert "no effect" not in repr(some)
+
+
+def test_centroids_above_their_pins_that_take_nearly_all_load_off_a_link():
+    """K loses digits there: the nominal heights, which `modes` proves, must not be outside."""
+    rng = np.random.default_rng(19)
+    for digits in np.linspace(1, 15.5, 60):
+        weight, below, length = rng.uniform(0.05, 2, 2).tolist() + [rng.uniform(0.5, 2)]
+        centroid = -below * length / weight * (1 - 10.0**-digits)
+        chain = rc.Chain(
+            mass=[below, weight], length=[1.0, length], centroid=[0.5, centroid], radius_of_gyration=[0.3, 0.2]
+        )
+        m = rc.modes(chain)
+        found = m.uncertainty(radius_of_gyration=[1e-9, 0.0], worst=True).worst
+        assert (found.lowest_conical_height <= m.conical_height).all(), digits
+        assert (m.conical_height <= found.highest_conical_height).all(), digits
+        if digits < 8:
+            assert np.allclose(found.highest_conical_height, m.conical_height, rtol=1e-4)

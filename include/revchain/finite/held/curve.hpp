@@ -153,13 +153,14 @@ class HeldCurve {
         if (!state) return {};
         return tense(*state, wanted);
     }
-    /// Visits the state between two states with the wanted top tension.
+    /// Visits the state between two states with the wanted top tension. There is none if the
+    /// tension jumps past it, where the curve is left for another.
     template <class Visit>
     void between(const Tense& a, const Tense& b, double wanted, Visit&& visit) {
         const auto at = [&](double share) { return at_share(a, b, share, wanted); };
         const auto off = [](const Tense& x) { return x.off; };
         const auto best = detail::state_between(a.off, b.off, at, off, 1e-16 * wanted);
-        if (best) visit(best->state);
+        if (best && std::abs(best->off) <= 1e-10 * wanted) visit(best->state);
     }
     /// Returns a state between two that is beyond the wanted tension, searched where it is nearest.
     std::optional<Tense> crossed(Tense a, Tense b, double wanted) {
