@@ -102,7 +102,7 @@ struct HeldCordShapesOptions {
 
 /// Steady shapes at finite amplitude with 1 to `max_half_waves` half waves, sorted by half waves.
 /// Half waves are counted about the line between the rest positions of the two ends; ends on
-/// springs count as pins. Every link is in tension.
+/// springs count as pins. A link may be in compression, which only a rod can carry.
 ///
 /// For each number of half waves the first shape is reached by continuation from the nearly
 /// straight chain without gravity. The ends approach, then move to their radii and springs, then

@@ -79,6 +79,19 @@ def test_top_tension_comes_back(held):
         assert [s.span > 1.1 for s in found] == [True, False]
 
 
+@pytest.mark.parametrize(
+    ("count", "tension", "speed"), [(3, 80.0, 6.5), (5, 60.0, 5.5), (4, 90.0, 4.0), (4, 62.46, 6.15), (4, 153.4, 5.12)]
+)
+def test_every_shape_under_a_tension_has_it(count, tension, speed):
+    """Where the branch of a number of half waves jumps past the tension, there is no shape."""
+    held = rc.Held(rc.Chain.uniform_rods(count, length=4.0, mass=10.0), tension=tension)
+    found = rc.steady_shapes(held, angular_speed=speed, max_half_waves=2)
+    for shape in found:
+        assert shape.tension[-1] == pytest.approx(tension, rel=1e-12)
+    if (count, tension) == (3, 80.0):  # a shape of 189 N was listed, and the list called complete
+        assert len(rc.steady_shapes(held, angular_speed=speed)) == 0
+
+
 @pytest.mark.parametrize("held", [BLADE, BODIES, SIX], ids=["rods", "bodies", "six"])
 def test_moments_about_every_pin_balance(held):
     shapes = rc.steady_shapes(held, conical_height=0.01, max_half_waves=2)
