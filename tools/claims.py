@@ -19,9 +19,9 @@ run, says a command, and a regular expression that must be found in what it prin
 source    where a fact from elsewhere is stated
 
 Expressions see revchain as `rc`, `np`, `mp`, what `math` has, `g` (9.80665), and what `setup` of their file defines.
-`long = true`: evaluated by --run alone. These claims need no entry: rows of docs/accuracy.md and docs/paper.md, which name
-their tests; accuracy that a docstring repeats from there; tables made from results of benchmarks; output of code on pages,
-which the tests run.
+`long = true`: evaluated by --run alone. A test that is named must exist; `./test --all` shows that it passes. These claims
+need no entry: rows of docs/accuracy.md and docs/paper.md, which name their tests; accuracy that a docstring repeats from
+there; tables made from results of benchmarks; output of code on pages, which the tests run.
 """
 
 import argparse
@@ -33,7 +33,7 @@ import subprocess
 import sys
 import time
 import tomllib
-from functools import cache
+from functools import cache, cached_property
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -126,41 +126,62 @@ def of_header(path: Path, text: str) -> list[Sentence]:
     return found
 
 
-def sentences(root: Path) -> list[Sentence]:
-    pages = [*root.glob("*.md"), *sorted((root / "docs").rglob("*.md")), *root.glob("paper/*.md")]
-    pages = [page for page in pages if page != root / "docs/reference/cpp.md"]  # made from the headers
-    modules, headers = sorted((root / "src").rglob("*.py")), sorted((root / "include/revchain").glob("*.hpp"))
-    readers = ((pages, of_page), (modules, of_module), (headers, of_header))
-    texts = [(read, path.relative_to(root), path.read_text("utf-8")) for files, read in readers for path in files]
-    return [each for read, path, text in texts for each in read(path, text)]
-
-
 def bare(text: str) -> str:
     """The sentence without code, mathematics and addresses of links."""
     return re.sub(r"`[^`]*`|\$[^$]*\$|\]\([^)]*\)", " ", text)
 
 
+class Tree:
+    """A tree of sources: its sentences, the list of docs/accuracy.md, and the files of checks, each read once."""
+
+    def __init__(self, root: Path = ROOT) -> None:
+        self.root = root
+
+    @cached_property
+    def sentences(self) -> list[Sentence]:
+        root = self.root
+        pages = [*root.glob("*.md"), *sorted((root / "docs").rglob("*.md")), *root.glob("paper/*.md")]
+        pages = [page for page in pages if page != root / "docs/reference/cpp.md"]  # made from the headers
+        modules, headers = sorted((root / "src").rglob("*.py")), sorted((root / "include/revchain").glob("*.hpp"))
+        readers = ((pages, of_page), (modules, of_module), (headers, of_header))
+        texts = [(read, path.relative_to(root), path.read_text("utf-8")) for files, read in readers for path in files]
+        return [each for read, path, text in texts for each in read(path, text)]
+
+    @cached_property
+    def accuracy_rows(self) -> list[tuple[str, list[str]]]:
+        """First cell and tests of each row of the list in docs/accuracy.md."""
+        page = (self.root / "docs/accuracy.md").read_text("utf-8")
+        section = page.partition("## Claims and their tests\n")[2].partition("\n## ")[0]
+        rows = [line.strip("| ").split(" | ") for line in section.splitlines() if line.startswith("| `")]
+        folder = {"cpp": "cpp", "py": "python"}
+        tests = [re.findall(r"`([\w/]+\.(cpp|py))`: ([^;]+)", row[-1]) for row in rows]
+        return [
+            (row[0], [f"tests/{folder[end]}/{file}: {name.strip()}" for file, end, name in found])
+            for row, found in zip(rows, tests, strict=True)
+        ]
+
+    @cached_property
+    def registers(self) -> dict[str, dict[str, Any]]:
+        """The files of checks by name."""
+        found = {}
+        for path in sorted((self.root / "tests/claims").glob("*.toml")):
+            register = tomllib.loads(path.read_text("utf-8"))
+            for claim in register.setdefault("claim", []):
+                known = {*CHECKS, "file", "text", "says", "given", "long"}
+                if len(claim.keys() & {*CHECKS}) != 1 or not {"file", "text"} <= claim.keys() <= known:
+                    kinds = ", ".join(CHECKS)
+                    raise ValueError(f"{path.name}: a claim has file, text and one of {kinds}; this one is {claim}")
+            found[path.stem] = register
+        return found
+
+
 # What needs no entry -------------------------------------------------------------------------------------------------
 
 
-@cache
-def accuracy_rows(root: Path) -> list[tuple[str, list[str]]]:
-    """First cell and tests of each row of the list in docs/accuracy.md."""
-    page = (root / "docs/accuracy.md").read_text("utf-8")
-    section = page.partition("## Claims and their tests\n")[2].partition("\n## ")[0]
-    rows = [line.strip("| ").split(" | ") for line in section.splitlines() if line.startswith("| `")]
-    folder = {"cpp": "cpp", "py": "python"}
-    tests = [re.findall(r"`([\w/]+\.(cpp|py))`: ([^;]+)", row[-1]) for row in rows]
-    return [
-        (row[0], [f"tests/{folder[end]}/{file}: {name.strip()}" for file, end, name in found])
-        for row, found in zip(rows, tests, strict=True)
-    ]
-
-
-def tests_named(root: Path, sentence: Sentence) -> list[str]:
+def tests_named(tree: Tree, sentence: Sentence) -> list[str]:
     """The tests of a sentence that names them itself, or repeats a promise of the list in docs/accuracy.md."""
     if sentence.file == "docs/accuracy.md" and sentence.text.startswith("| `"):
-        return next((tests for first, tests in accuracy_rows(root) if sentence.text.startswith(f"| {first} |")), [])
+        return next((tests for first, tests in tree.accuracy_rows if sentence.text.startswith(f"| {first} |")), [])
     if sentence.file == "docs/paper.md" and sentence.text.startswith("|"):
         return [f"tests/cpp/paper/{file}" for file in re.findall(r"`(section_\d\.cpp)`", sentence.text)]
     if named := re.findall(r"`(tests/(?:cpp|python)/[\w/]+\.(?:cpp|py))`", sentence.text):
@@ -171,7 +192,7 @@ def tests_named(root: Path, sentence: Sentence) -> list[str]:
         ending = sentence.file.endswith(".hpp")
         return [
             test
-            for cell, tests in accuracy_rows(root)
+            for cell, tests in tree.accuracy_rows
             if names & {each.split(".")[-1] if ending else each for each in re.findall(r"`([\w.]+)`", cell)}
             for test in tests
         ]
@@ -290,18 +311,6 @@ def written_check(claim: dict[str, Any]) -> str:
     return f"{kind}: {value if isinstance(value, str) else '; '.join(value)}"
 
 
-def registers(root: Path) -> list[tuple[Path, dict[str, Any]]]:
-    found = []
-    for path in sorted((root / "tests/claims").glob("*.toml")):
-        register = tomllib.loads(path.read_text("utf-8"))
-        for claim in register.get("claim", []):
-            kinds = [kind for kind in CHECKS if kind in claim]
-            if len(kinds) != 1 or not {"file", "text"} <= claim.keys() <= {*CHECKS, "file", "text", "says", "given", "long"}:
-                raise ValueError(f"{path.name}: a claim has file, text and one of {', '.join(CHECKS)}; this one is {claim}")
-        found.append((path, register))
-    return found
-
-
 def names_of(register: dict[str, Any]) -> dict[str, Any]:
     """What the expressions of a register see."""
     import mpmath
@@ -315,58 +324,59 @@ def names_of(register: dict[str, Any]) -> dict[str, Any]:
     return names
 
 
-def unmatched(root: Path) -> tuple[list[Sentence], list[Sentence]]:
+def unmatched(tree: Tree) -> tuple[list[Sentence], list[Sentence]]:
     """Claims without a check, and other sentences with a number that no entry names."""
     texts: dict[str, list[str]] = {}
-    for _, register in registers(root):
-        for claim in register.get("claim", []):
+    for register in tree.registers.values():
+        for claim in register["claim"]:
             texts.setdefault(claim["file"], []).append(claim["text"])
     open_claims, rest = [], []
-    for each in sentences(root):
+    for each in tree.sentences:
         said = bare(each.text)
         if re.search(r"\d", said) or CLAIM.search(said):
-            if any(text in each.text or each.text in text for text in texts.get(each.file, ())) or tests_named(root, each):
+            if any(text in each.text or each.text in text for text in texts.get(each.file, ())) or tests_named(tree, each):
                 continue
             (open_claims if CLAIM.search(said) else rest).append(each)
     return open_claims, rest
 
 
-def gone(root: Path) -> list[str]:
+def gone(tree: Tree) -> list[str]:
     """Entries whose sentence is no longer in its file."""
     found: dict[str, str] = {}
-    for each in sentences(root):
+    for each in tree.sentences:
         found[each.file] = found.get(each.file, "") + " " + each.text
     return [
-        f"{path.name}: {claim['file']}: {claim['text']}"
-        for path, register in registers(root)
-        for claim in register.get("claim", [])
+        f"{name}.toml: {claim['file']}: {claim['text']}"
+        for name, register in tree.registers.items()
+        for claim in register["claim"]
         if claim["text"] not in found.get(claim["file"], "")
     ]
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(prog="tools/claims", description="Claims with a number and what shows them.")
-    parser.add_argument("--run", action="store_true", help="evaluate what takes long: times, tests, commands")
+    parser.add_argument("--run", action="store_true", help="measure times and run commands, too")
     parser.add_argument("--rest", action="store_true", help="list sentences with a number that no check names")
     parser.add_argument("parts", nargs="*", metavar="PART", help="claims whose file or sentence contains a PART")
     given = parser.parse_args()
     wanted = lambda file, text: not given.parts or any(part in f"{file} {text}" for part in given.parts)  # noqa: E731
-    open_claims, rest = unmatched(ROOT)
+    tree = Tree()
+    open_claims, rest = unmatched(tree)
     if given.rest:
         for each in rest:
             if wanted(each.file, each.text):
                 print(f"{each.file}:{each.line}: {each.text}")
         return 0
     counts, bad = dict.fromkeys([*CHECKS, "named"], 0), 0
-    for each in sentences(ROOT):
-        if CLAIM.search(bare(each.text)) and (tests := tests_named(ROOT, each)) and wanted(each.file, each.text):
+    for each in tree.sentences:
+        if CLAIM.search(bare(each.text)) and (tests := tests_named(tree, each)) and wanted(each.file, each.text):
             counts["named"] += 1
             good = all(test_exists(ROOT, test) for test in tests)
             bad += not good
             print(f"{'ok' if good else 'NOT'}\t{each.file}:{each.line}\t{each.text}\t{'; '.join(tests)}\ttest")
-    for _, register in registers(ROOT):
+    for register in tree.registers.values():
         names = names_of(register)
-        for claim in register.get("claim", []):
+        for claim in register["claim"]:
             if not wanted(claim["file"], claim["text"]):
                 continue
             try:
@@ -380,7 +390,7 @@ def main() -> int:
     for each in (each for each in open_claims if wanted(each.file, each.text)):
         bad += 1
         print(f"OPEN\t{each.file}:{each.line}\t{each.text}\t\tno check")
-    for each in gone(ROOT):
+    for each in gone(tree):
         bad += 1
         print(f"GONE\t{each}\t\tthe sentence is not there")
     by_kind = ", ".join(f"{count} {kind}" for kind, count in counts.items() if count)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import runpy
 import signal
 import subprocess
 import sys
@@ -90,6 +91,12 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
 def repository() -> Path:
     """The checkout these tests lie in."""
     return Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(scope="session")
+def claims(repository: Path) -> dict[str, Any]:
+    """The functions of tools/claims.py by name."""
+    return runpy.run_path(str(repository / "tools/claims.py"))
 
 
 @pytest.fixture(scope="session")

@@ -4,11 +4,11 @@
 The list of all claims and of their tests is in docs/accuracy.md, "Claims and their tests".
 """
 
-import ast
 import inspect
 import math
 import re
 from operator import attrgetter
+from pathlib import Path
 
 import mpmath as mp
 import numpy as np
@@ -254,6 +254,7 @@ CLOSED_FORMS = {
     "two_links.seconds_lost_per_day": (a_link_on_a_thread, clock),
     "two_links.jointed_links": (two_jointed, jointed),
     "two_links.pin_of_silent_clapper": (bell_and_clapper, silent_pin),
+    "two_links.spring_deflection": (lambda d: d.anything(2), lambda weight, stiffness: within(0.5, weight / stiffness)),
     "two_links.joint_without_bending": (jointed_rod, lambda l, p: within(2.5, (l / 2 - p) ** 2 / p)),  # noqa: E741
 }
 
@@ -793,56 +794,26 @@ def test_exponents_of_small_disturbances(frame):
 # The list ------------------------------------------------------------------------------------------------------------
 
 
-def rows_of(repository):
-    """First cell and tests of each row of the list: (file, name) of a test, as the page says them."""
-    page = (repository / "docs/accuracy.md").read_text()
-    section = page.partition("## Claims and their tests\n")[2].partition("\n## ")[0]
-    rows = [line.strip("| ").split(" | ") for line in section.splitlines() if line.startswith("| `")]
-    return [(row[0], re.findall(r"`([\w/]+\.(?:cpp|py))`: ([^;]+)", row[-1])) for row in rows]
-
-
-def test_every_test_of_the_list_exists(repository):
-    rows = rows_of(repository)
+def test_every_test_of_the_list_exists(repository, claims):
+    rows = claims["Tree"](repository).accuracy_rows
     assert len(rows) > 75
     missing = [first for first, tests in rows if not tests]
-    for _, tests in rows:
-        for file, name in tests:
-            path = repository / "tests" / ("python" if file.endswith(".py") else "cpp") / file
-            text = path.read_text() if path.is_file() else ""
-            start = f"def {name.strip()}(" if file.endswith(".py") else f'TEST_CASE("{name.strip()}'
-            if start not in text:
-                missing.append((file, name))
+    missing += [test for _, tests in rows for test in tests if not claims["test_exists"](repository, test)]
     assert not missing
 
 
 CLAIM = re.compile(r"\d ulp|\b(half )?an ulp|last digits?\b|\b[\d.]+e-1\d\b")
 
 
-def described(node, prefix):
-    """Names and docstrings, their examples left out, of what is public in a parsed module or class."""
-    for child in ast.iter_child_nodes(node):
-        if isinstance(child, (ast.FunctionDef, ast.ClassDef)) and not child.name.startswith("_"):
-            text = (ast.get_docstring(child) or "").partition("Examples\n---")[0]
-            yield prefix + child.name, " ".join([text, *fields(child)])
-            yield from described(child, f"{prefix}{child.name}.")
-
-
-def fields(node):
-    """What the fields of a result, said by `Field`, say of themselves."""
-    if isinstance(node, ast.ClassDef):
-        for child in node.body:
-            if isinstance(child, ast.AnnAssign) and isinstance(child.value, ast.Call) and child.value.args:
-                yield getattr(child.value.args[0], "value", "")
-
-
-def test_every_docstring_with_a_number_is_in_the_list(repository):
-    listed = " ".join(first for first, _ in rows_of(repository))
-    absent = []
-    paths = sorted((repository / "src/revchain").rglob("*.py"))
-    assert len(paths) > 40
-    for path in paths:
-        prefix = f"{path.stem}." if path.stem in dir(rc) and inspect.ismodule(getattr(rc, path.stem)) else ""
-        for name, text in described(ast.parse(path.read_text()), prefix):
-            if CLAIM.search(text) and f"`{name}`" not in listed:
-                absent.append(name)
+def test_every_docstring_with_a_number_is_in_the_list(repository, claims):
+    tree = claims["Tree"](repository)
+    listed = " ".join(first for first, _ in tree.accuracy_rows)
+    found = [each for each in tree.sentences if each.file.startswith("src/") and each.name]
+    assert len({each.file for each in found}) > 40
+    absent = set()
+    for each in found:
+        module = Path(each.file).stem
+        prefix = f"{module}." if module in dir(rc) and inspect.ismodule(getattr(rc, module)) else ""
+        if CLAIM.search(each.text) and f"`{prefix}{each.name}`" not in listed:
+            absent.add(prefix + each.name)
     assert not absent

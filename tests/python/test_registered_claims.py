@@ -1,21 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Each claim with a number in README, docs, docstrings and public headers has a check, and what is quick to check holds."""
 
-import runpy
 from pathlib import Path
 
 import pytest
 
 
 @pytest.fixture(scope="module")
-def claims(repository):
-    return runpy.run_path(str(repository / "tools/claims.py"))
+def project(repository, claims):
+    return claims["Tree"](repository)
 
 
 @pytest.fixture
 def tree(tmp_path, claims):
     """A project of one page, one register and the given entries."""
-    claims["accuracy_rows"].cache_clear()
 
     def make(page, register):
         (tmp_path / "docs").mkdir(exist_ok=True)
@@ -23,30 +21,29 @@ def tree(tmp_path, claims):
         (tmp_path / "docs/accuracy.md").touch()
         (tmp_path / "docs/page.md").write_text(page, encoding="utf-8")
         (tmp_path / "tests/claims/page.toml").write_text(register, encoding="utf-8")
-        return tmp_path
+        return claims["Tree"](tmp_path)
 
-    yield make
-    claims["accuracy_rows"].cache_clear()
+    return make
 
 
-def test_each_claim_has_a_check(repository, claims):
-    missing, _ = claims["unmatched"](repository)
+def test_each_claim_has_a_check(project, claims):
+    missing, _ = claims["unmatched"](project)
     assert not [f"{each.file}:{each.line}: {each.text}" for each in missing], "tests/claims has no entry for these"
-    assert not claims["gone"](repository), "these sentences are no longer in their files"
+    assert not claims["gone"](project), "these sentences are no longer in their files"
 
 
-def test_each_test_that_is_named_exists(repository, claims):
-    for _, register in claims["registers"](repository):
-        for claim in register.get("claim", []):
+def test_each_test_that_is_named_exists(project, repository, claims):
+    for register in project.registers.values():
+        for claim in register["claim"]:
             if "test" in claim:
                 assert claims["check"](claim, {}, repository, False).good, claim
 
 
 @pytest.mark.parametrize("name", sorted(path.stem for path in Path(__file__).parents[1].glob("claims/*.toml")))
-def test_quick_checks_hold(repository, claims, name):
-    (register,) = (register for path, register in claims["registers"](repository) if path.stem == name)
+def test_quick_checks_hold(project, repository, claims, name):
+    register = project.registers[name]
     names, wrong = claims["names_of"](register), []
-    for claim in register.get("claim", []):
+    for claim in register["claim"]:
         result = claims["check"](claim, names, repository, False)
         if not result.good:
             wrong.append((claim["file"], claim["text"], result.says))
@@ -80,18 +77,18 @@ def test_ranges_and_units_of_time(claims):
 
 
 def test_a_sentence_without_a_check_is_found(claims, tree):
-    root = tree("It takes 3 seconds. It has 7 links.\n\n```text\n5 seconds\n```\n", "")
-    missing, rest = claims["unmatched"](root)
+    project = tree("It takes 3 seconds. It has 7 links.\n\n```text\n5 seconds\n```\n", "")
+    missing, rest = claims["unmatched"](project)
     assert [each.text for each in missing] == ["It takes 3 seconds."]
     assert [each.text for each in rest] == ["It has 7 links."]
 
 
 def test_only_the_page_made_from_headers_is_left_out(claims, tree):
-    root = tree("", "")
+    project = tree("", "")
     for name in ("tutorial", "reference"):
-        (root / "docs" / name).mkdir()
-        (root / "docs" / name / "cpp.md").write_text(f"The {name} takes 3 seconds.\n", encoding="utf-8")
-    missing, _ = claims["unmatched"](root)
+        (project.root / "docs" / name).mkdir()
+        (project.root / "docs" / name / "cpp.md").write_text(f"The {name} takes 3 seconds.\n", encoding="utf-8")
+    missing, _ = claims["unmatched"](project)
     assert [each.text for each in missing] == ["The tutorial takes 3 seconds."]
 
 
@@ -104,10 +101,10 @@ def test_what_decorators_write_into_docstrings_is_found(claims):
 
 def test_a_wrong_number_and_a_sentence_that_is_gone_are_found(claims, tree):
     entry = '[[claim]]\nfile = "docs/page.md"\ntext = "takes 3 seconds"\nequals = {"3" = "1 + 1"}\n'
-    root = tree("It takes 3 seconds.\n", entry)
-    assert claims["unmatched"](root)[0] == [] == claims["gone"](root)
-    (_, register), = claims["registers"](root)
-    result = claims["check"](register["claim"][0], claims["names_of"](register), root, False)
+    project = tree("It takes 3 seconds.\n", entry)
+    assert claims["unmatched"](project)[0] == [] == claims["gone"](project)
+    (register,) = project.registers.values()
+    result = claims["check"](register["claim"][0], claims["names_of"](register), project.root, False)
     assert not result.good and result.says == "2"
     assert len(claims["gone"](tree("It is quick.\n", entry))) == 1
 
@@ -115,14 +112,14 @@ def test_a_wrong_number_and_a_sentence_that_is_gone_are_found(claims, tree):
 def test_times_that_a_command_prints(claims, tree):
     entry = '[[claim]]\nfile = "docs/page.md"\ntext = "takes 3 ms"\nmeasured = {"3 ms" = "one: call"}\n'
     for took, good in (("2000 µs", True), ("7 ms", False)):
-        root = tree("It takes 3 ms.\n", f"measure = \"printf 'one: call\\t{took}\\n'\"\n" + entry)
-        (_, register), = claims["registers"](root)
+        project = tree("It takes 3 ms.\n", f"measure = \"printf 'one: call\\t{took}\\n'\"\n" + entry)
+        (register,) = project.registers.values()
         names = claims["names_of"](register)
-        assert claims["check"](register["claim"][0], names, root, False).says == "by --run"
-        assert claims["check"](register["claim"][0], names, root, True).good == good
+        assert claims["check"](register["claim"][0], names, project.root, False).says == "by --run"
+        assert claims["check"](register["claim"][0], names, project.root, True).good == good
 
 
 def test_an_entry_with_two_checks_is_refused(claims, tree):
-    root = tree("", '[[claim]]\nfile = "docs/page.md"\ntext = "x"\ntest = "a"\nsource = "b"\n')
+    project = tree("", '[[claim]]\nfile = "docs/page.md"\ntext = "x"\ntest = "a"\nsource = "b"\n')
     with pytest.raises(ValueError, match="one of equals, holds"):
-        claims["registers"](root)
+        project.registers  # noqa: B018
