@@ -40,7 +40,7 @@ void heights(const Cutting& cutting, Index size) {
     }
 }
 
-/// Of the pins' offsets, over the length of the uncut chain.
+/// Returns the largest difference of the pins' offsets, over the length of the uncut chain.
 double difference(const Cutting& cutting, Index count, const revchain::CordShape& uncut) {
     const auto chain = cutting.make(count);
     const double length = static_cast<double>(count) + cutting.excess;  // a link is 1 long

@@ -24,12 +24,9 @@ from math import log10
 from pathlib import Path
 
 import plan as plans
+from measure import BUILD, ENVIRONMENT, ROOT
 
-ROOT = Path(__file__).resolve().parent.parent
-BUILD = ROOT / "build" / "bench"
 ULP = 2.0**-52
-# Peers as they are used: CPU time is counted over all threads, and more than one would only add to it.
-ENVIRONMENT = os.environ | {name: "1" for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")}
 
 
 class Worker:
@@ -206,12 +203,12 @@ class Bench:
 
 
 def error_limit(links):
-    """Of every mode, in ulp (2^-52): 4, and one more for each decade beyond 1e4."""
+    """Largest error allowed of a mode, in ulp (2^-52): 4, and one more for each decade of links beyond 1e4."""
     return 4 + max(0.0, log10(links / 1e4))
 
 
 def wrong(entry):
-    """What is wrong with an entry, or nothing: peers may fail, this library may not."""
+    """The fault of an entry, empty if there is none. Peers may fail; this library may not."""
     if entry.status.startswith("BROKEN") or (entry.status != "ok" and entry.method["family"] == "revchain"):
         return entry.status
     if entry.method["name"] == "modes" and not entry.rtol and not entry.error <= error_limit(entry.task.links) * ULP:

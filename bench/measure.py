@@ -83,7 +83,7 @@ def build(targets):
 
 
 def run(part, folder, quick):
-    """What is noted of the part: seconds, exit status, and what was said on standard error."""
+    """Runs a part. Returns its seconds, its exit status and its lines on standard error."""
     name, *words = part.words
     if quick and name.startswith("bench_"):
         words = part.quick or words

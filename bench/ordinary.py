@@ -244,7 +244,7 @@ MILLION = {
 def truth(job, links, count):
     """Numbers of modes, from 0, and their heights to more than double: all, or 50 of many.
 
-    Of rigs revchain's own heights, which have proved bounds of 2 ulp.
+    For rigs they are revchain's own heights, which have proved bounds of 2 ulp.
     """
     if job == "rigs with springs":
         return np.arange(count), our_rig(links)[0]

@@ -6,7 +6,7 @@
                                      of CLAIMS; prints each sentence of HOLDS that is no longer true, to be written anew
     python bench/pages.py --check    writes nothing; exit status 1 if something is not as the results are
 
-What has no results yet (before the first whole run) is left as it is, and printed.
+Tables and numbers without results (before the first whole run) stay as they are, and are listed.
 """
 
 import argparse

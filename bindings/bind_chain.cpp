@@ -120,7 +120,7 @@ py::array derived(const Chain& chain) {
     return to_numpy(is_scalar, chain.size(), [&](Index m) { return property(chain.link(m)); });
 }
 
-/// What `get_state` returns ends with this and, of a chain that `tapered` made, its exponent.
+/// The state of a chain ends with this number, and with the exponent of a chain that `tapered` made.
 constexpr int state_version = 2;
 
 /// Exact: both words of the ratio of squares.

@@ -30,7 +30,7 @@ def one(cord, mode):
 
 @pytest.mark.parametrize("exponent", [0.0, 0.3, 2.0, 11.5])
 def test_the_derivative_by_the_exponent(exponent):
-    """Of ``4 (p + 1) L / j**2`` by p, in 40 digits; of a uniform cord the integrand has a logarithm at the free end."""
+    """The derivative of ``4 (p + 1) L / j**2`` by p in 40 digits. At p = 0 the integrand has a logarithm at the free end."""
     m = rc.modes(rc.Cord(0.7, density=exponent), 8)
     with mp.workdps(40):
         step = mp.mpf(10) ** -13

@@ -8,9 +8,10 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// A DoubleDouble for dense matrices of Eigen, whose operations are function calls. Eigen's solvers
-/// compile three times faster than with DoubleDouble, whose operations GCC inlines at hundreds of
-/// places; an operation takes 1.4 times as long.
+/// A DoubleDouble for dense matrices of Eigen, whose operations are function calls. GCC inlines
+/// those of DoubleDouble at hundreds of places of Eigen's solvers: with them
+/// src/compiled/stability.cpp takes four times as long to compile. Calls make an operation slower,
+/// 1.4 times in `modes`.
 class CalledWords : public DoubleDouble {
    public:
     using DoubleDouble::DoubleDouble;

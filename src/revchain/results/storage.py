@@ -156,7 +156,7 @@ def _version() -> str:
 
 
 def _install(said: Mapping[str, Any]) -> str:
-    """What to do with a file that this version cannot read, by the version in its header."""
+    """Return the advice for a file that this version cannot read, from the version in its header."""
     version = said.get("version")
     known = isinstance(version, str) and re.fullmatch(r"[\w.+-]{1,40}", version)
     return f"it was saved by revchain {version}: install that version or a later one" if known else "install a later version"
