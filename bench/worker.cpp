@@ -49,7 +49,7 @@ double nanoseconds_per_cycle() {
     return best;
 }
 
-/// For the check that a method which skips the work is found out: it looks at every thousandth link.
+/// For the check that a method which skips the work is found out: it looks at one link in ten thousand.
 void register_canary(Registry& registry) {
     registry.methods.push_back({.name = "canary",
                                 .family = "canary",
@@ -57,7 +57,7 @@ void register_canary(Registry& registry) {
                                 .largest = 10'000'000,
                                 .run = [](const RawChain& chain, std::size_t count, double, Heights& heights) {
                                     double sum = 0;
-                                    for (std::size_t m = 0; m < chain.size(); m += 1000) sum += chain.weight[m];
+                                    for (std::size_t m = 0; m < chain.size(); m += 10'000) sum += chain.weight[m];
                                     for (std::size_t j = 0; j < count; ++j) heights.push_back(sum);
                                 }});
 }

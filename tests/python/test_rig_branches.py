@@ -106,6 +106,18 @@ def test_flywheels_tell_directions_apart():
     assert "flywheels take the tension from links" in rc.branches(rig, max_angular_speed=12.0, direction=-1).remark
 
 
+@pytest.mark.parametrize("momentum", [0.4, 1.0, 1.5, 2.3, 4.0])
+def test_a_branch_ends_where_the_flywheel_takes_all_tension(momentum):
+    """One link of 1 kg and 1 m: m g - h n falls to 0 at n = g / h, where its cosine (g - h n) / n^2 does too."""
+    rig = rc.Rig(rc.Chain(mass=1.0, length=1.0), flywheels=rc.Flywheel(momentum=momentum))
+    slack = G / momentum
+    branch = rc.branch(rig, 1, max_angular_speed=2 * slack, direction=-1)
+    assert branch.end == "slack" and not len(branch.folds) and len(branch) < 400
+    assert branch.angular_speed[-1] == pytest.approx(slack, rel=1e-7)
+    cosine = (G - momentum * branch.angular_speed[1:]) / branch.angular_speed[1:] ** 2
+    assert np.cos(branch.lowest_inclination[1:]) == pytest.approx(cosine, rel=1e-10, abs=1e-14)
+
+
 def test_a_soft_spring_leaves_the_fastest_speeds_unproved():
     """Above sqrt(g E / W) a spring of stiffness E cannot hold a weight W against its own whirling."""
     rig = rigged(rc.Chain(weight=[1.0, 2.0], length=[0.5, 0.4]), stiffness=20.0, radius=0.1)  # 3 / 20 m

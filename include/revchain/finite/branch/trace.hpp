@@ -66,12 +66,12 @@ bool crosses_vertical(const BranchPoint& before, const BranchPoint& here) {
     return sum < 0;
 }
 
-/// Returns true if flywheels cancel all but 1e-5 of the tension of a link.
+/// Returns true if flywheels cancel all but a part `left` of the tension of a link.
 REVCHAIN_LAZY
-bool is_slack(const BranchLinks<double>& links, double log_height) {
+bool is_slack(const BranchLinks<double>& links, double log_height, double left) {
     const double speed = links.speed_at(std::exp(log_height));
     for (std::size_t m = 0; m < links.bodies(); ++m)
-        if (std::abs(links.pull(m, speed)) < 1e-5 * std::abs(links.links[m].pull)) return true;
+        if (std::abs(links.pull(m, speed)) < left * std::abs(links.links[m].pull)) return true;
     return false;
 }
 
@@ -92,7 +92,8 @@ auto follow(Branch& branch, BranchWalk& walk, double log_end, std::size_t max_po
     const bool passes_vertical = trace_of(branch).system->links.is_symmetric();
     while (branch.size() < max_points) {
         if (!walk.advance())
-            return is_slack(walk.links(), walk.here().state.log_height) ? End::slack : End::stuck;
+            return is_slack(walk.links(), walk.here().state.log_height, 1e-5) ? End::slack
+                                                                              : End::stuck;
         const BranchPoint &before = walk.before(), &here = walk.here();
         if (passes_vertical && crosses_vertical(before, here)) return End::vertical;
         auto crossings = crossings_of(walk, to_end);
@@ -117,6 +118,7 @@ auto follow(Branch& branch, BranchWalk& walk, double log_end, std::size_t max_po
             return End::closed;
         }
         append(branch, here);
+        if (is_slack(walk.links(), here.state.log_height, 1e-9)) return End::slack;
         if (here.state.log_height > log_top) return End::slow;
         if (is_loose(trace_of(branch).system->links, here.state)) return End::loose;
     }
