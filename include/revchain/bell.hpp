@@ -42,8 +42,9 @@ inline constexpr std::array<std::string_view, 7> bell_datum_names{
 template <Real T>
 using ByBellDatum = std::array<T, bell_datum_names.size()>;
 
-/// The two modes of small motion about a position of rest. Bell and clapper lean to the same side in
-/// the first and to opposite sides in the second, so they can swing as one piece in the first only.
+/// The two modes of small motion about a position of rest. If both modes swing, or both fall, bell
+/// and clapper lean to the same side in the first and to opposite sides in the second, so they can
+/// swing as one piece in the first only.
 /// With the pin of the clapper below the axle the first is the slower one, above it the faster one.
 /// An inverted body stands on its upper pin. A height below 0 is that of a motion that falls; if one
 /// mode swings and the other falls, the first is the one that swings.

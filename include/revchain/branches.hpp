@@ -137,7 +137,7 @@ REVCHAIN_DECLARE
 /// The branch of a mode of a rig, or the branch from rest if its support is off the axis.
 ///
 /// On the axis, modes are numbered as by `modes` in the direction of rotation. Off the axis no
-/// shape is straight. The branch from rest, `mode` 1, begins at a tenth of the first critical speed
+/// shape is vertical. The branch from rest, `mode` 1, begins at a tenth of the first critical speed
 /// (of the rig with its support on the axis), or of the given speed if that is slower. `branches`
 /// finds the other branches. If links stand or lean against their load, a branch may begin towards
 /// slower speeds; it is followed down to a tenth of the speed of its mode. Along a branch every

@@ -21,8 +21,8 @@
 /// Greenhill (1908) §1. A conical pendulum of height lambda turns with the angular speed n = sqrt(g
 /// / lambda); lambda is the conical height of that speed. Modes and shapes of a chain depend on
 /// lengths and ratios of weights only; gravity g converts their conical heights to speeds. Units:
-/// any consistent set, angles in rad. Functions are O(1) and throw InvalidArgument unless arguments
-/// are positive and finite.
+/// any consistent set if gravity is given, else metres and seconds; angles in rad. Functions are
+/// O(1) and throw InvalidArgument unless arguments are positive and finite.
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// Direction of rotation: positive or negative angular speed. It matters to flywheels only.

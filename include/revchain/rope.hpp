@@ -144,7 +144,7 @@ class TortuousRope {
     [[nodiscard]] TortuousPoint at(double x) const;
 
    private:
-    /// Whether the radii are so far apart that the angle is that of a plane rope in double.
+    /// Whether the radii are so far apart that a half wave turns by pi, to the last bit.
     bool is_plane() const { return first_ <= 1e-20 * second_; }
 
     double first_, second_, third_;  // square roots of R1, R2, R3

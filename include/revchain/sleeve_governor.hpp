@@ -77,9 +77,10 @@ class SleeveGovernor {
     [[nodiscard]] GovernorPoint at(double inclination) const { return at(inclination, {}); }
     /// The speed of equilibrium, NaN if there is none.
     [[nodiscard]] double speed(double inclination) const { return at(inclination).speed; }
-    /// All equilibria at a speed with the balls on their own side of the axis, by inclination;
-    /// found by intervals, which prove that there are no others. `complete` is false if two lie too
-    /// close together to be told apart. Throws InvalidArgument unless speed >= 0 and finite.
+    /// All equilibria at a speed with the arms at most horizontal and the balls on their own side
+    /// of the axis, by inclination; stops are ignored. Intervals prove that there are no others.
+    /// `complete` is false if two lie too close together to be told apart. Throws InvalidArgument
+    /// unless speed >= 0 and finite.
     [[nodiscard]] std::vector<GovernorPoint> equilibria(double speed,
                                                         bool* complete = nullptr) const;
     /// The answer to a speed that rises by the fraction `change` from the equilibrium at an

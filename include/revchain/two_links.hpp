@@ -119,7 +119,7 @@ template <Real T>
     const T height = l + (half < T(0) ? coupling / (root - half) : half + root);
     const T whole = sqrt(height);
     const T over = whole * (whole + sqrt(l));
-    // 86400 (lambda - l) / over, times 86400 first: the other factors may underflow
+    // 86400 (lambda - l) / over; 86400 first where the product of the other factors may underflow
     return half < T(0) ? T(86400) * c * (link.centroid * unit / (root - half)) / over
                        : T(86400) * ((half + root) / over);
 }

@@ -427,7 +427,7 @@ def test_table_of_questions():
     cells = runpy.run_path(str(ROOT / "tests/python/test_interface.py"))["CELLS"]
     table = (ROOT / "docs/systems.md").read_text("utf-8").partition("| question | Chain |")[2].partition("\n\n")[0]
     rows = [line.strip("|").split("|") for line in table.splitlines()[2:]]
-    shown = {name.strip("."): row[1:] for row in rows for name in re.findall(r"`([.\w]+)(?:\(\))?`", row[0])}
+    shown = {name.strip("."): row[1:] for row in rows for name in re.findall(r"`([.\w]+(?:\(\w+=True\))?)(?:\(\))?`", row[0])}
     assert shown.keys() == cells.keys()
     for question, refusals in cells.items():
         for kind, cell in zip(("chain", "rig", "cord", "held"), shown[question], strict=True):

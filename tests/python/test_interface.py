@@ -132,6 +132,7 @@ QUESTIONS = {
     "shape.sensitivity": lambda system: rc.steady_shapes(system, angular_speed=9.0)[0].sensitivity,
     "sensitivity": lambda system: rc.modes(system, 2).sensitivity,
     "uncertainty": lambda system: rc.modes(system, 2).uncertainty(mass=0.05),
+    "uncertainty(worst=True)": lambda system: rc.modes(system, 2).uncertainty(mass=0.05, worst=True),
 }
 BENT = {name: "is bent.*use steady_shapes" for name in ("held, span", "held cord, span")}
 TAUT = {name: "use steady_shapes" for name in ("held", "held cord")}
@@ -156,6 +157,7 @@ CELLS = {  # question: system: None for an answer, or words of the reason and of
     "shape.sensitivity": {"cord": r"cut the cord into links: cord\.chain\(100\)", "held cord, span": "cut the cord into links"},
     "sensitivity": {"held": "is for a Chain, a Rig or a Cord", **BENT},
     "uncertainty": {"held": "is for a Chain, a Rig or a Cord", **BENT},
+    "uncertainty(worst=True)": {"held": "is for a Chain, a Rig or a Cord", **BENT},
 }
 KINDS = {"chain": RODS, "rig": RIG, "cord": CORD, "held": HELD, "held, span": SPAN}
 KINDS |= {"held cord": CORD_TAUT, "held cord, span": CORD_HELD}

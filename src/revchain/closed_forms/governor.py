@@ -235,7 +235,8 @@ class SleeveGovernor(Solved, row="point"):
 
     @described()
     def equilibria(self, angular_speed: float) -> GovernorEquilibria:
-        """Return all equilibria at a speed, by inclination, with the balls on their own side of the axis.
+        """Return all equilibria at a speed, by inclination, with the arms at most horizontal and the balls on their own side
+        of the axis; stops are ignored.
 
         Intervals prove that there are no others. Where they cannot, a ValueError says so.
 

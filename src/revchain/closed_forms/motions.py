@@ -54,7 +54,7 @@ class BufferImpact(Solved):
     raises: If a number is not positive and finite, or there are more than 100,000 blows.
     notes: Accuracy, measured against integration, if no blow only grazes the buffer: positions to 1e-13 of speed times
         time, speeds to 1e-13 of the speed and of acceleration times time, times to 1e-13 of the last time. Cost: 10
-        microseconds, 1 more for each blow, and 0.05 for each state. Carriages of about equal mass give one to three
+        microseconds, 1 more for each blow, and 0.05 for each state. Carriages of about equal mass give one or two
         blows; a rear carriage that is 10,000 times as heavy can give a thousand.
 
     >>> rc.BufferImpact(front_mass=1, rear_mass=1, buffer_stiffness=4, coupling_stiffness=0.5, speed=1)

@@ -24,7 +24,7 @@ LEAST_OF_URDF = 2e-14
 RATIO = "gyration_ratio"
 """Name of the numbers that hold more digits of the radii of gyration than MuJoCo's moments of inertia have."""
 _STEPS = 1000  # of time in a turn
-_STEPS_OF_LINK = 50  # in an oscillation of the lightest link under the greatest tension and the stiffest springs
+_STEPS_OF_LINK = 50  # in half an oscillation of the lightest link under the greatest tension and the stiffest springs
 
 
 def to_mjcf(
@@ -46,7 +46,8 @@ def to_mjcf(
     gravity : float, optional
         Acceleration of gravity, m/s^2; standard gravity if left out. Only for a system: a shape has its own.
     timestep : float, optional
-        Time step of the integrator, s. If left out: a thousandth of a turn, less for links that oscillate faster.
+        Time step of the integrator, s. If left out: a hundredth of the fastest oscillation of a link, less with dashpots,
+        and for a shape at most a thousandth of a turn.
 
     Returns
     -------

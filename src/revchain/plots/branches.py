@@ -122,7 +122,7 @@ def plot_branches(
     other changes of stability, such as a Hamiltonian Hopf bifurcation; `Branches.stability_windows` says what each is.
     The line changes at the ends of these windows, also between two points. Above about 19,000 (points times links
     squared) fewer places are examined, above 150,000 only the points and their neighbours, so that a short window can
-    be missed. With ``hanging_only=False`` colours show the posture, up to 7 of them.
+    be missed. With ``hanging_only=False`` colours show the posture if there are at most 7.
 
     quantity: Quantity to draw, as in `Branch.plot`.
     stability: Whether to draw the stability; if False, all lines are solid. If left out, it is drawn for chains, rigs and

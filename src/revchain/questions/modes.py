@@ -423,7 +423,7 @@ def count_modes(
     ------
     ValueError
         If both or neither of height and speed are given, or a number is out of its range; if `modes` refuses the system;
-        if, for a rig, rounding leaves the count uncertain.
+        if a rig has dashpots or linear drag; if, for a rig, rounding leaves the count uncertain.
 
     Notes
     -----
@@ -460,6 +460,8 @@ def count_modes(
             return _core.count_modes(core, floats(caller, "conical_height", height))[()]
         return _core.count_modes_at_speed(core, *together(caller, angular_speed=speed, gravity=g))[()]
     one = one_positive(caller, "gravity", gravity)
+    if kind == "rig" and of.is_damped:
+        raise ValueError(f"{caller}: damped motions are not ordered by speed; take them from modes(rig)")
     if kind == "rig" and speed is not None:
         return _core.count_rig_modes(of._under(one), speed, False, one)[()]
     height = positive(caller, "conical_height", height) if speed is None else one / positive(caller, "angular_speed", speed) ** 2

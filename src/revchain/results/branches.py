@@ -141,8 +141,8 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
     )
     birth: Field[str] = Field(
         "Start of the branch. ``'vertical'``: it leaves the straight chain or cord at a critical speed. ``'rest'``: "
-        "it starts at rest, with the support off the axis. ``'fold'``: it is isolated; two shapes start at a fold. "
-        "Not for held systems.",
+        "it starts at rest, with the support off the axis. ``'fold'``: it is isolated, with two shapes from the speed of "
+        "a fold upwards, or closed. Not for held systems.",
         fact=True,
     )
     end: Field[str] = Field(

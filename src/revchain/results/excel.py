@@ -49,7 +49,7 @@ class Page(NamedTuple):
 
 
 def pages_of(results: Mapping[str, Result], title: str = "") -> list[Page]:
-    """Return the sheets for results of one system, by name: the system with all facts, its links, and the tables."""
+    """Return the sheets for named results of one system: its single facts, its links or point masses, and the tables."""
     from .. import __version__
 
     first = next(iter(results.values()))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Derivatives of a steady shape of a chain held at both ends by the speed, the data of the chain and those of its ends."""
+"""Derivatives of a steady shape of a chain held at both ends by speed, span or tension, and the data of chain and ends."""
 
 from __future__ import annotations
 

@@ -296,7 +296,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         shown=lambda m: _ratios(m),
     )
     decay_time: Field[Floats] = Field(
-        "Time in which each motion decays to 1/e, s, shape (k,): infinite without dashpots, negative if it grows.",
+        "Time in which each motion decays to 1/e, s, shape (k,): infinite without dashpots and drag, negative if it grows.",
         lambda m: _over(-1.0, m.exponent.real),
         heading="decay time",
         unit="s",
@@ -374,7 +374,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         otherwise=lambda m: (m.system.mode_count, 0),
     )
     has_momentum: Field[bool] = Field(
-        "Whether a flywheel has constant momentum, so that the two directions differ.",
+        "Whether a flywheel spins relative to its link, or has momentum, at rest: the two directions then differ.",
         otherwise=lambda m: False,
     )
     other_available: Field[int] = Field(

@@ -141,7 +141,7 @@ class Place(NamedTuple):
     height : float or ndarray
         Height above the support (of a held cord: above its lower end), m; negative if the cord hangs.
     inclination : float or ndarray
-        Inclination to the vertical, rad; positive if the cord approaches the axis going up.
+        Inclination to the vertical, rad; positive if the offset decreases going up.
     tension : float or ndarray
         Tension, N or in the unit of the weights.
 
@@ -273,7 +273,7 @@ class SteadyShape(
     )
     inclination: Field[Floats] = Field(
         "Inclination of each link or place to the vertical, rad, within (-pi, pi]: to the downward vertical for "
-        "hanging systems, to the upward one for held systems; positive if it approaches the axis going up.",
+        "hanging systems, to the upward one for held systems; positive if the offset decreases going up.",
     )
     offset: Field[Floats] = Field("Signed distance of each pin or place from the axis, m.")
     height: Field[Floats] = Field(

@@ -51,7 +51,7 @@ class Tuned(Result, row="value", title="Tuned: {summary}", good="status"):
     between: Field[Pair] = Field("Range of the search.", fact=True)
     reachable: Field[Pair | None] = Field(
         "If no value was found: the smallest and the largest conical height in the range, at 33 or 65 values; None for a "
-        "datum with one value for each speed.", fact=True,
+        "datum with at most one value for each speed.", fact=True,
     )
     summary: Field[str] = Field("The result in words.", lambda t: t._words())
 

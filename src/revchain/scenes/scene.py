@@ -87,9 +87,9 @@ class Scene(Tables, frozen=True, weakref=True):
     Notes
     -----
     The attributes are the tables of the file (`revchain schema` describes each key). Plain numbers are in SI units; text
-    such as ``"39.1396 inch"`` is converted by pint. The methods `modes`, `steady_shapes`, `response`, `swing`, `branches`
-    and `campbell` call the function of that name with the system, the gravity and the arguments of the scene;
-    `equilibria` calls the method of a `SleeveGovernor`. Arguments given to a method replace those of the scene.
+    such as ``"39.1396 inch"`` is converted by pint. The methods `modes`, `steady_shapes`, `response`, `swing`, `branches`,
+    `campbell` and `drag_shape` call the function of that name with the system, the gravity and the arguments of the
+    scene; `equilibria` calls the method of a `SleeveGovernor`, or returns the governor if no speed is given. Arguments given to a method replace those of the scene.
 
     Examples
     --------

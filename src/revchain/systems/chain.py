@@ -375,7 +375,7 @@ class Chain(System):
         Raises
         ------
         ValueError
-            If there is no such pin, or a number is out of range.
+            If mass and weight are not given as for the chain, there is no such pin, or a number is out of range.
 
         Examples
         --------

@@ -582,7 +582,7 @@ class Rig(System):
 
     @property
     def has_momentum(self) -> bool:  # type: ignore[override]
-        """Whether a wheel has constant angular momentum, so that the two directions of rotation differ."""
+        """Whether a wheel spins relative to its link, or has momentum, at rest: the two directions of rotation then differ."""
         return self.flywheels is not None and bool(self._momentum(STANDARD_GRAVITY).any())
 
     @property
