@@ -380,7 +380,8 @@ class Holds:
 
 
 def ratios(r, jobs, sizes):
-    return [float(row["ratio"]) for job in jobs for n in sizes for row in r.rows("ordinary", job=job, N=n)]
+    """The ratios to the fastest peer. `Missing` where a row is not there, unless the plan leaves all of that size out."""
+    return [r.value("ordinary", "ratio", job=job, N=n) for job in jobs for n in sizes if r.rows("ordinary", N=n)]
 
 
 def near(value, *stated, factor=1.5):

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Modes, counts and swings of cords.
 #include <optional>
 
 #include "bindings.hpp"

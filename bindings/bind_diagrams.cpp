@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Diagrams of forces (statics.hpp) and jointed links (two_links.hpp).
 #include "bindings.hpp"
 #include "revchain/statics.hpp"
 #include "revchain/two_links.hpp"

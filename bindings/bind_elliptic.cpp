@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Closed forms that need GSL: the motion of a governor, ropes, elliptic functions.
 #include "bindings.hpp"
 #include "revchain/governor.hpp"
 #include "revchain/rope.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Modes of chains and of chains held at both ends.
 #include <array>
 #include <functional>
 #include <optional>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Forced motion, swings and motion in time.
 #include <algorithm>
 #include <array>
 #include <complex>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Sensitivity, uncertainty, tuning, edited chains, and the bell.
 #include <optional>
 
 #include "bindings.hpp"

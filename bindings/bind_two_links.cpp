@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Closed forms: two links, governors with a sleeve, the buffer stop.
 #include "bindings.hpp"
 #include "revchain/buffer.hpp"
 #include "revchain/sleeve_governor.hpp"

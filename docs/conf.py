@@ -50,7 +50,6 @@ sphinx_gallery_conf = {
     "examples_dirs": str(ROOT / "examples" / "python"),
     "gallery_dirs": "gallery",
     "filename_pattern": r"/[a-z]\w+\.py$",
-    "ignore_pattern": r"(^|/)draw_",
     "image_scrapers": ("gallery_pictures.scrape",),
     "within_subsection_order": "gallery_pictures.order",
     "capture_repr": ("_repr_html_",),

@@ -31,6 +31,7 @@ import os
 import re
 import subprocess
 import sys
+import textwrap
 import time
 import tomllib
 from functools import cache, cached_property
@@ -265,7 +266,8 @@ class Result(NamedTuple):
 
 
 def shown(value: Any) -> str:
-    return f"{float(value):.6g}" if isinstance(value, (int, float)) or hasattr(value, "__float__") else str(value)
+    is_number = isinstance(value, (int, float)) or hasattr(value, "__float__")
+    return f"{float(value):.6g}" if is_number else textwrap.shorten(str(value), 100)
 
 
 def check(claim: dict[str, Any], names: dict[str, Any], root: Path, run: bool) -> Result:

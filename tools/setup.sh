@@ -1,6 +1,6 @@
 # shellcheck shell=sh
 # SPDX-License-Identifier: MPL-2.0
-# Sourced by ./run and ./test, with $root set: everything that has to be there before the work can start.
+# Sourced by ./run, ./test, bench/run, paper/build and programs of tools/, with $root set: everything that has to be there before the work can start.
 #   set_up EXTRAS NEED...   EXTRAS of the Python package (pyproject.toml), NEEDs from the table below
 
 venv=${root:?}/.venv

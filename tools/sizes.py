@@ -59,7 +59,7 @@ def module_steps(folder=ROOT / "build/dev"):
     log = folder / ".ninja_log"
     steps = [line.split("\t") for line in log.read_text("utf-8").splitlines()[1:]] if log.exists() else []
     last = {name: int(end) - int(start) for start, end, _, name, *_ in steps}
-    own = ("CMakeFiles/revchain_objects.dir/", "bindings/CMakeFiles/_core.dir/")
+    own = ("CMakeFiles/revchain_objects.dir/", "CMakeFiles/revchain_analytic_objects.dir/", "bindings/CMakeFiles/")
     return sum(took for name, took in last.items() if name.startswith(own)) / 1000
 
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
+// The chains on which bench_tradeoff compares models.
 #pragma once
 
 #include "support/chains.hpp"

@@ -226,7 +226,7 @@ REVCHAIN_DECLARE
 REVCHAIN_DECLARE
 [[nodiscard]] Branches branches(const Rig& rig, const RigDiagramOptions& options, Thorough);
 
-/// Selects a shape on a branch of a chain or a rig. Give exactly one of the five numbers from
+/// Selects a shape on a branch of a chain or a cord. Give exactly one of the five numbers from
 /// `conical_height` to `top_tension`.
 struct OnBranchOptions {
     Index mode = 1;  ///< of the branch, as in `BranchOptions`

@@ -162,8 +162,8 @@ struct HeldModesOptions {
 };
 
 /// Whirl modes of small amplitude of the straight chain under a tension, slowest first, chosen as
-/// for a hanging chain. Shapes at finite amplitude begin at these heights, where the span is nearly
-/// the length. N links have N - 1 modes, one more for each end on a spring, less one for each pin
+/// for a hanging chain. At these heights shapes of finite amplitude under the same tension branch off. N
+/// links have N - 1 modes, one more for each end on a spring, less one for each pin
 /// that moves without mass. In `shapes` firm ends are 0, the largest offset is 1, and the lowest
 /// pin that moves has a positive offset; nodes are distances from the lower end. Without gravity a
 /// height is `HeldModesOptions::gravity` over the square of the speed. Held cords: cord.hpp.
@@ -207,7 +207,8 @@ struct HeldDiagramOptions {
 ///
 /// Method: arc continuation in (force across, force along, height) at constant span; shapes are
 /// refined in double-double, at folds in double. Branches that begin elsewhere or leave the plane
-/// of the ends are not searched; `steady_shapes` can prove that one speed has no other shapes.
+/// of the ends are not searched; for a chain with an end on the axis `steady_shapes` can prove that
+/// one speed has no other shapes up to `max_half_waves`.
 /// Accuracy: an estimated 1e-15 rad if `condition` is moderate. A cord folds as it approaches the
 /// slowest speed, at which one of its two straight parts, hung from its end, begins to whirl.
 /// Offsets vanish there faster than any power of the difference of speeds, so the last speed found

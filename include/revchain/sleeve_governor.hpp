@@ -41,7 +41,7 @@ struct GovernorData {
 /// The governor at one inclination of its arms.
 struct GovernorPoint {
     double inclination = 0;                ///< of the arms, outwards
-    double speed = 0;                      ///< of equilibrium, rad/s; NaN if there is none
+    double speed = 0;                      ///< of equilibrium, rad/s; NaN or infinite if none
     double low_speed = 0, high_speed = 0;  ///< with friction: the sleeve stays between these
     double ball_radius = 0;
     double height = 0;    ///< of the cone: from the ball to where its arm meets the axis
@@ -75,11 +75,12 @@ class SleeveGovernor {
     const GovernorData& data() const noexcept { return data_; }
     /// The point at an inclination. Throws InvalidArgument if the links cannot reach there.
     [[nodiscard]] GovernorPoint at(double inclination) const { return at(inclination, {}); }
-    /// The speed of equilibrium, NaN if there is none.
+    /// The speed of equilibrium, NaN or infinite if there is none.
     [[nodiscard]] double speed(double inclination) const { return at(inclination).speed; }
     /// All equilibria at a speed with the arms at most horizontal and the balls on their own side
     /// of the axis, by inclination; stops are ignored. Intervals prove that there are no others.
-    /// `complete` is false if two lie too close together to be told apart. Throws InvalidArgument
+    /// `complete` is false if two lie too close together to be told apart, or if the force vanishes
+    /// almost everywhere. Throws InvalidArgument
     /// unless speed >= 0 and finite.
     [[nodiscard]] std::vector<GovernorPoint> equilibria(double speed,
                                                         bool* complete = nullptr) const;

@@ -234,6 +234,18 @@ TEST_CASE("governors: what is refused", "[public]") {
     CHECK_THROWS_WITH(governor.effort(0.5, 0), Contains("change"));
 }
 
+TEST_CASE("governor: all but isochronous, the search ends", "[public]") {
+    // spring and balls balance at 1 rad/s at every inclination, apart from gravity
+    for (const double gravity : {1e-2, 1e-4, 1e-9, 1e-300}) {
+        const SleeveGovernor hartnell({.ball_mass = 1, .arm = 1, .pivot_offset = 1, .sleeve_arm = 1,
+                                       .spring_stiffness = 2, .spring_force = 2, .gravity = gravity});
+        bool complete = false;
+        const auto found = hartnell.equilibria(1, &complete);
+        CHECK(complete == (gravity >= 1e-2));
+        if (complete) CHECK(found.size() == 1);
+    }
+}
+
 TEST_CASE("governor: arms all but straight across at high speeds", "[public]") {
     // equal arms: cos = (n_0 / n)^2 with n_0^2 = (1 + sleeve / ball) g / arm
     const SleeveGovernor porter({.ball_mass = 2.3, .arm = 0.33, .lower_arm = 0.33, .sleeve_mass = 9.5});

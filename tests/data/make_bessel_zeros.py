@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MPL-2.0
-"""Zeros of J0 and J1 to 25 digits, for tests/cpp/analytic: python make_bessel_zeros.py > bessel_zeros.csv"""
+"""Zeros of J0 and J1 to 25 digits, for tests/cpp/special: python make_bessel_zeros.py > bessel_zeros.csv"""
 import mpmath as mp
 
 mp.mp.dps = 40

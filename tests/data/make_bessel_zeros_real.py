@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MPL-2.0
-"""Zeros of J of real order to 25 digits, for tests/cpp/analytic.
+"""Zeros of J of real order to 25 digits, for tests/cpp/special.
 
 python make_bessel_zeros_real.py > bessel_zeros_real.csv
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MPL-2.0
 """Offsets and slopes of chains of length 1 with a tip mass or of varying density, 1 at the free end, to 20 digits, for
-tests/cpp/analytic: python make_chain_shapes.py > chain_shapes.csv
+tests/cpp/special: python make_chain_shapes.py > chain_shapes.csv
 
 Heights and zeros are those of tip_mass.csv and bessel_zeros_real.csv.
 """

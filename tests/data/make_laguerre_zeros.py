@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MPL-2.0
-"""Zeros of Laguerre polynomials to 25 digits, for tests/cpp/sweep: python make_laguerre_zeros.py > laguerre_zeros.csv
+"""Zeros of Laguerre polynomials to 25 digits, for tests/cpp/limits: python make_laguerre_zeros.py > laguerre_zeros.csv
 
 x_k of L_N is length / (conical height k) of N equal plummets on threads of that length.
 """

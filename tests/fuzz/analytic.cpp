@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Random calls of what needs GSL: cords, elliptic functions, ropes, governors.
 #include "revchain/analytic.hpp"
 #include "fuzz.hpp"
 #include "revchain/special/incomplete_elliptic.hpp"

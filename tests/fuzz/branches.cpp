@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Random calls of branches, diagrams and their windows.
 #include "revchain/branches.hpp"
 #include "fuzz.hpp"
 #include "revchain/stability_windows.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Random calls of chains and cords held at both ends.
 #include "revchain/held.hpp"
 #include "fuzz.hpp"
 #include "revchain/cord.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Random calls of modes and what is computed from them, for chains.
 #include "fuzz.hpp"
 #include "revchain/batch.hpp"
 #include "revchain/buffer.hpp"

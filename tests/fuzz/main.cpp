@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Runs cases of random numbers, one after the other.
 #include <chrono>
 #include <cstdlib>
 #include <iostream>

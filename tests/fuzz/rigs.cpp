@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Random calls of modes, shapes and motions of rigs.
 #include "fuzz.hpp"
 #include "revchain/response.hpp"
 #include "revchain/rig_modes.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Runs a case, with a limit of its time, and says what it got and from which number it can be made again.
 #include <ctime>
 
 #include "fuzz.hpp"

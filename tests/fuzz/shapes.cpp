@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Random calls of closed forms and of steady shapes of chains.
 #include "fuzz.hpp"
 #include "revchain/stability.hpp"
 #include "revchain/statics.hpp"

@@ -152,7 +152,7 @@ def test_uniform_refused(make, arguments):
         make(*arguments)
 
 
-# ---- weights at pins, threads, clamped links: heights_with_a_weight_at_a_pin is in test_claims.py
+# ---- weights at pins, threads, clamped links: heights_with_a_weight_at_a_pin is in test_accuracy.py
 
 
 @pytest.mark.parametrize("pin", [1, 2, 4])

@@ -21,7 +21,8 @@ SCENES = sorted((ROOT / "examples" / "scenes").glob("*.toml"))
 PYTHON = ROOT / "examples" / "python"
 GALLERY = sorted(PYTHON.glob("*/*.py"))
 EXPERIMENTS = [path for path in GALLERY if path.parent.name == "experiments"]
-PROGRAMS = sorted({*GALLERY, *PYTHON.glob("draw_*.py")} - {*EXPERIMENTS, PYTHON / "draw_programs.py"})  # which runs all
+DRAW = ROOT / "docs" / "figures"  # draw_*.py
+PROGRAMS = sorted({*GALLERY, *DRAW.glob("draw_*.py")} - {*EXPERIMENTS, DRAW / "draw_programs.py"})  # which runs all
 LOADED = {path: rc.load_scene(path) for path in SCENES}
 DAMPED = [path for path in SCENES if getattr(LOADED[path].system(), "is_damped", False)]
 CARRIED = [path for path in SCENES if "drag" in LOADED[path].asks]
@@ -258,7 +259,7 @@ def test_notebooks_of_programs(path):
 
 def run_alone(python, path, folder):
     """Copies a program of the gallery to an empty folder, runs it there without a screen, and returns what it prints."""
-    done = python(PYTHON / "draw_programs.py", shutil.copy(path, folder))
+    done = python(DRAW / "draw_programs.py", shutil.copy(path, folder))
     assert (done.returncode, done.stderr) == (0, "")
     written = {each.name for each in folder.iterdir()} - {path.name}
     if path.stem == "whirling_chain_3d":  # a view alone, of which test_animate.py has the page

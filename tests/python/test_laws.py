@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Rayleigh's law of constraints, which heights obey whatever computes them.
 
-Units, equal plummets, the limit of many links: tests/cpp/modes.cpp, tests/cpp/linear/extremes.cpp, tests/cpp/sweep."""
+Units, equal plummets, the limit of many links: tests/cpp/modes.cpp, tests/cpp/linear/extremes.cpp, tests/cpp/limits."""
 
 import numpy as np
 from hypothesis import given

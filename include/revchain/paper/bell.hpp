@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
+// Defines what bell.hpp declares.
 #pragma once
 
 #include <limits>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
+// Defines what compound_link.hpp declares.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
+// Defines what two_links.hpp declares.
 #pragma once
 
 #include "revchain/compound_link.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
+// Defines what held.hpp declares.
 #pragma once
 
 #include "revchain/finite/branch/lowest_height.hpp"

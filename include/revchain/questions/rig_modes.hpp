@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
+// Defines what rig_modes.hpp declares.
 #pragma once
 
 #include "revchain/linear/mode_shapes.hpp"

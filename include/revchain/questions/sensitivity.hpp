@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
+// Defines what sensitivity.hpp declares.
 #pragma once
 
 #include <string>

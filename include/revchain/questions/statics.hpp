@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
+// Defines what statics.hpp declares.
 #pragma once
 
 #include "revchain/finite/shapes/described.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
+// Defines what swing.hpp declares.
 #pragma once
 
 #include "revchain/modes.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
+// Defines what tune.hpp declares.
 #pragma once
 
 #include "revchain/linear/one_mode.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Defines what governor.hpp declares.
 #pragma once
 
 #include "revchain/governor.hpp"

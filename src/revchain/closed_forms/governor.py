@@ -38,7 +38,7 @@ _IN_WORDS = {
 class GovernorPoints(NamedTuple):
     """A governor at one or more inclinations of its arms, from the downward vertical outwards.
 
-    `inclination`: of the arms, rad. `angular_speed`: of equilibrium, rad/s; NaN if there is none. `low_speed`,
+    `inclination`: of the arms, rad. `angular_speed`: of equilibrium, rad/s; NaN or infinite if there is none. `low_speed`,
     `high_speed`: between these friction holds the sleeve. `ball_radius`: distance of the balls from the axis, m.
     `height`: from the balls up to where their arms meet the axis, m. `lift`: of the sleeve, from inclination 0, m.
     `stable`: whether a higher speed lifts the sleeve farther. `period`: of small oscillations, s; NaN if they grow.
@@ -251,7 +251,7 @@ class SleeveGovernor(Solved, row="point"):
         speed = real(caller, "angular_speed", angular_speed)
         found, complete = self._found().equilibria(speed)
         if not complete:
-            raise ValueError(f"{caller}: two equilibria are too close to be told apart at angular_speed {angular_speed}")
+            raise ValueError(f"{caller}: equilibria are too close to be told apart at angular_speed {angular_speed}")
         columns = dict(zip(GovernorPoints._fields, found.reshape(-1, len(GovernorPoints._fields)).T, strict=True))
         given = {"angular_speed": speed, "stable": columns["stable"] > 0}
         return GovernorEquilibria._made(governor=self, **columns | given)

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Helpers with which the example programs draw. Importing this module gives all pictures the style of the documentation."""
+"""Helpers with which the example programs draw. They may change; a program of your own should copy what it needs.
+
+Importing this module gives all pictures the style of the documentation.
+"""
 
 from __future__ import annotations
 

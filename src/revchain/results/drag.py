@@ -35,7 +35,7 @@ class DragShape(Result, row="link", title="{summary}", notes=("{_remarks}",), go
 
     __slots__ = ()
     link: Field[Whole] = Field(
-        "Index of each link, lowest first, in the order in which the chain was listed.",
+        "Number of each link in the list that was given; the array starts with the lowest link.",
         lambda s: s.system._link_numbers,
         heading="link",
         shown=lambda s: getattr(s.system, "names", None) or getattr(s.system.chain, "names", None),

@@ -220,7 +220,7 @@ def loads_of(at: Balance, changes: dict[str, Change]) -> dict[str, Floats]:
 
 
 def solved(slope: Floats, loads: dict[str, Floats]) -> dict[str, Floats]:
-    """The change of the shape by each datum that keeps the balance."""
+    """For each datum, how the shape must change to stay in balance."""
     ends = np.cumsum([load.shape[1] for load in loads.values()])[:-1]
     moved = np.split(-np.linalg.solve(slope, np.concatenate([*loads.values()], axis=1)), ends, axis=1)
     return dict(zip(loads, moved, strict=True))

@@ -358,7 +358,7 @@ TEST_CASE("§4 with another density: the balance of forces, and many plummets", 
 }
 
 TEST_CASE("§4: a chain of many links tends to the continuous chain", "[paper][section_4]") {
-    // Uniform rods: order 2 in the heights (coefficients: tests/cpp/sweep/convergence_laws.cpp), nodes and vertical points.
+    // Uniform rods: order 2 in the heights (coefficients: tests/cpp/limits/convergence_laws.cpp), nodes and vertical points.
     const Index count = 5;
     const auto height = heavy_chain::conical_heights(count, 1.0);
     std::array<double, 2> worst_height{}, worst_shape{}, worst_node{}, worst_vertical{};

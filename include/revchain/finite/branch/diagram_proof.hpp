@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
+// The proof that no branch is missing between two heights.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
+// Defines what cord.hpp declares of steady shapes.
 #pragma once
 
 #include "revchain/finite/cord/continuous_chain.hpp"

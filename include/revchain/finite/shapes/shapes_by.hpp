@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
+// The lists of steady shapes of chains and rigs at a speed or height.
 #pragma once
 
 #include <algorithm>

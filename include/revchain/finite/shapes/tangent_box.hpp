@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
+// Boxes of the tangents of all inclinations, and Krawczyk's test of them.
 #pragma once
 
 #include <Eigen/LU>

@@ -13,7 +13,7 @@ import revchain as rc
 from revchain.plots.modes import BACKWARD, FORWARD
 from revchain.plots.programs import COLOURS, save
 
-STUDIES = Path(__file__).resolve().parent.parent / "studies"
+STUDIES = Path(__file__).resolve().parents[2] / "examples/studies"
 RPM = 60 / (2 * np.pi)
 
 figure = Figure(figsize=(8, 7.4), layout="constrained")

@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt
 import revchain as rc
 from revchain.plots.programs import save
 
-SCENES = Path(__file__).resolve().parents[1] / "scenes"
+SCENES = Path(__file__).resolve().parents[2] / "examples/scenes"
 NAMES = [
     *("rods_on_threads", "ball_on_chain", "clamped_bell", "jointed_rod", "carriage_on_springs"),
     *("bell_on_soft_frame", "swing_carousel", "chair_o_plane"),

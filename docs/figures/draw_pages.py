@@ -15,7 +15,7 @@ import matplotlib
 
 from revchain.plots.style import STYLE
 
-DOCS = Path(__file__).resolve().parents[2] / "docs"
+DOCS = Path(__file__).resolve().parent.parent
 PAGES = [
     *("howto/plots.md", "howto/governor.md", "howto/campbell.md", "howto/drag.md", "tutorial/first_chain.md"),
     *("tutorial/carousel.md", "chains.md", "paper.md"),
