@@ -203,20 +203,21 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
 
     build(sorted({target for part in parts for target in part.targets} | ({"bench_worker_native"} if whole else set())))
-    found = about(options.quick)
+    found, own = about(options.quick), {}
     note = folder / "about.json"
     if whole:
         for file in folder.iterdir():
             file.unlink()
-    elif note.exists():  # a part again, of a run of the same day and revision
+    elif note.exists():  # parts again, of a run of the same day and machine; theirs is another revision, it may be
         before = json.loads(note.read_text(encoding="utf-8"))
-        if all(before[key] == found[key] for key in ("command", "date", "revision", "machine")):
-            found["parts"] = before["parts"]
+        if all(before[key] == found[key] for key in ("command", "date", "machine")):
+            own = {"revision": found["revision"]} if found["revision"] != before["revision"] else {}
+            found = before
     start = time.monotonic()
     failed = []
     for number, part in enumerate(parts, 1):
         print(f"[{number}/{len(parts)}, {time.monotonic() - start:.0f} s] {part.name}", flush=True)
-        found["parts"][part.name] = run(part, folder, options.quick)
+        found["parts"][part.name] = run(part, folder, options.quick) | own
         if found["parts"][part.name]["status"]:
             failed.append(part.name)
         note.write_text(json.dumps(found, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")

@@ -15,6 +15,7 @@ import functools
 import json
 import re
 import sys
+import textwrap
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -98,9 +99,12 @@ def about(r):
     caches = ", ".join(f"{name} {m[name]}" for name in ("L1d cache", "L2 cache", "L3 cache") if name in m)
     peers = ", ".join(f"{name} {number}" for name, number in a["versions"].items())
     vectors = "".join(f", {name}" for name in m["vectors"])
-    return (f"All results on this page are of one run of `{a['command']}` on {a['date']}, revision {a['revision']}.\n"
-            f"Processor: {m['processor']}, {m['cores']} cores{vectors} ({caches}). Compiler: {a['compiler']}; flags\n"
-            f"`{a['flags']['portable']}`, native build `{a['flags']['native']}`.\nVersions: {peers}.")
+    again = {name: part["revision"] for name, part in a["parts"].items() if "revision" in part}
+    but = "".join(f" ({name}: {revision})" for name, revision in again.items())
+    lines = (f"All results on this page are of one run of `{a['command']}` on {a['date']}, revision {a['revision']}{but}.",
+             f"Processor: {m['processor']}, {m['cores']} cores{vectors} ({caches}). Compiler: {a['compiler']};",
+             f"flags `{a['flags']['portable']}`, native build `{a['flags']['native']}`.", f"Versions: {peers}.")
+    return "\n".join(line for each in lines for line in textwrap.wrap(each, 120, break_on_hyphens=False))
 
 
 SIZES = (2, 8, 20, 100, 300, 1000, 3000)
@@ -380,8 +384,9 @@ class Holds:
 
 
 def ratios(r, jobs, sizes):
-    """The ratios to the fastest peer. `Missing` where a row is not there, unless the plan leaves all of that size out."""
-    return [r.value("ordinary", "ratio", job=job, N=n) for job in jobs for n in sizes if r.rows("ordinary", N=n)]
+    """The ratios to the fastest peer. The plan may leave out sizes above 300, where a peer takes minutes."""
+    measured = [(job, n) for job in jobs for n in sizes if n <= 300 or r.rows("ordinary", job=job, N=n)]
+    return [r.value("ordinary", "ratio", job=job, N=n) for job, n in measured]
 
 
 def near(value, *stated, factor=1.5):
@@ -412,8 +417,8 @@ HOLDS = (
           lambda r: min(ratios(r, JOBS, SIZES[2:])) >= 1),
     Holds("docs/index.md", "faster than NumPy and SciPy for 20 or more links",
           lambda r: min(ratios(r, JOBS, SIZES[2:])) >= 1),
-    Holds("docs/index.md", "a hundred times as fast as SciPy for the ten slowest modes of a million links",
-          lambda r: 80 <= r.value("ordinary", "ratio", job=MILLION[0]) <= 200),
+    Holds("docs/index.md", "more than 50 times as fast as SciPy for the ten slowest modes of a million links",
+          lambda r: r.value("ordinary", "ratio", job=MILLION[0]) >= 50),
     Holds("docs/benchmarks.md", "The error of every mode of every kind is at most 0.5 ulp",
           lambda r: max(float(row["error_ulp"]) for row in r.rows("heights", method="modes", rtol="")) <= 0.505),
     Holds("docs/benchmarks.md", "The portable build takes at most 1.5 times as long as the native one", lambda r: max(
@@ -438,8 +443,8 @@ HOLDS = (
           lambda r: r.said("models", r"(\d+) of \d+ predictions")[0] == "0"),
     Holds("include/revchain/finite/cord/continuous_chain.hpp", "length/height 500 take 1.8 ms (bench/continuous.cpp)",
           lambda r: near(r.value("continuous", "milliseconds", method="revchain"), 1.8)),
-    Holds("include/revchain/models/finite_amplitude.hpp", "(bench_tradeoff: 5 to 1000 links, within a factor of 1.6)",
-          lambda r: all(near(float(row["took_us"]) / int(row["links"]) / int(row["modes"]), 8, factor=1.6)
+    Holds("include/revchain/models/finite_amplitude.hpp", "Cost: 4 to 10 microseconds a link and mode (bench_tradeoff: 5 to 1000 links)",
+          lambda r: all(4 <= float(row["took_us"]) / int(row["links"]) / int(row["modes"]) <= 10
                         for row in r.rows("tradeoff", model="finite amplitude")
                         if row["took_us"] and int(row["links"]) > 2)),
 )

@@ -8,8 +8,8 @@ namespace revchain::inline REVCHAIN_BUILD::models {
 
 /// The conical height at which the shape that grows out of a mode has its lowest link at a given
 /// inclination, by the exact equations along the branch. Bounds are estimates: twice the error of
-/// the shape's inclinations over the inclination of the lowest link, and 4 ulp. Cost: 8
-/// microseconds a link and mode (bench_tradeoff: 5 to 1000 links, within a factor of 1.6).
+/// the shape's inclinations over the inclination of the lowest link, and 4 ulp. Cost: 4
+/// to 10 microseconds a link and mode (bench_tradeoff: 5 to 1000 links).
 struct FiniteAmplitude {
     static constexpr std::string_view name = "finite amplitude";
     static constexpr bool is_linear = false;
