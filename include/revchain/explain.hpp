@@ -33,7 +33,7 @@ struct Explanation {
     [[nodiscard]] std::string text() const;
 };
 
-/// Selects modes and sets their tolerance, as `ModesOptions` does.
+/// Selects modes by number and sets their tolerance, as `ModesOptions` does.
 struct ExplainOptions {
     Index first = 1;               ///< from 1 for the slowest
     std::optional<Index> count{};  ///< or `all_modes`; absent: at most 10
@@ -47,8 +47,8 @@ struct ExplainOptions {
 REVCHAIN_DECLARE
 [[nodiscard]] Explanation explain(const Chain<double>& chain, const ExplainOptions& options = {});
 
-/// Deleted: modes of rigs, cords and held systems have one method for each kind of system. Call
-/// `modes` and read `RigModes::method`, `CordModes::method` or `Modes::method`.
+/// Deleted: for rigs, cords and held systems there is no choice of methods by cost. Call `modes`
+/// and read `RigModes::method`, `CordModes::method` or `Modes::method`.
 Explanation explain(const Rig& rig, const ExplainOptions& options = {}) = delete;
 Explanation explain(const Cord& cord, const ExplainOptions& options = {}) = delete;
 template <class System>

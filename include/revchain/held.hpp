@@ -47,8 +47,8 @@ struct HeldBy {
 
 /// A `Chain<double>` or a `Cord` held at both ends, checked once by its constructor. By default the
 /// ends are firm points on the axis. `lower` and `upper` put an end of a chain on a spring, equally
-/// stiff in all directions across the axis, or carry it round the axis at a radius. All lie in one
-/// plane.
+/// stiff in all directions across the axis, or carry it round the axis at a radius. Both ends lie
+/// in one plane with the axis. `Support::damping` is not read.
 ///
 /// Throws InvalidArgument unless exactly one of span and tension is given, positive and finite, for
 /// a span not less than the length, and for firm ends as far apart as the length. Also throws for
@@ -174,9 +174,10 @@ struct HeldModesOptions {
 /// their neighbours (docs/accuracy.md). A tension or stiffness whose second word is not 0 is taken
 /// as a quotient that was rounded once; otherwise numbers are exact. Cost: 0.7 microseconds a link
 /// and mode, also with shapes.
-/// Throws InvalidArgument for a span (use `stability`) and for a tension that does not exceed the
-/// weight (the chain would not be straight) or is out of range. Also throws for wrong numbers and
-/// windows as `modes` of a chain, and if rounding leaves the number of modes in a window in doubt.
+/// Throws InvalidArgument for a span (see `steady_shapes`, `stability`) and for a tension that does
+/// not exceed the weight (the chain would not be straight) or is out of range. Also throws for
+/// wrong numbers and windows as `modes` of a chain, and if rounding leaves the number of modes in a
+/// window in doubt.
 REVCHAIN_DECLARE
 [[nodiscard]] Modes<double> modes(const Held<Chain<double>>& held,
                                   const HeldModesOptions& options = {});
@@ -231,11 +232,11 @@ struct HeldOnBranchOptions {
     double gravity = conical_pendulum::standard_gravity;
 };
 
-/// A shape on the branch `mode` of a chain or cord held at a span. At a given speed it is the first
-/// shape that `steady_shapes` lists. With a given tension at the upper end it is the fastest one,
-/// with the speed `angular_speed()`. Accuracy: inclinations as `steady_shapes`; the height for a
-/// tension to 1e-14. Throws InvalidArgument as `branches`, for a mode below 1, for a tension
-/// between springs, and if the branch does not reach the number.
+/// A shape on the branch `mode` of a chain or cord held at a span. At a given speed, on the axis,
+/// it is the first shape with `mode` half waves that `steady_shapes` lists. With a given tension at
+/// the upper end it is the fastest one, with the speed `angular_speed()`. Accuracy: inclinations as
+/// `steady_shapes`; the height for a tension to 1e-14. Throws InvalidArgument as `branches`, for a
+/// mode below 1, for a tension between springs, and if the branch does not reach the number.
 REVCHAIN_DECLARE
 [[nodiscard]] HeldShape steady_shape(const Held<Chain<double>>& held,
                                      const HeldOnBranchOptions& options);

@@ -67,9 +67,10 @@ struct GovernorEffort {
 /// (tests/python/test_governor.py). Cost: 50 ns a point, 0.3 ms for all equilibria.
 class SleeveGovernor {
    public:
-    /// Throws InvalidArgument unless ball mass, arm and gravity are positive, other masses, lengths,
-    /// stiffness, friction and inertia not negative, all finite, the lower links long enough to reach
-    /// the sleeve at inclination 0, and not both lower links and sleeve arms are given.
+    /// Throws InvalidArgument unless ball mass, arm, gravity and `balls` are positive, sleeve mass,
+    /// other arms, `joint`, stiffness, friction and inertia not negative, and all but the inertia
+    /// finite. Also throws for lower links too short for the sleeve at inclination 0, lower links
+    /// together with sleeve arms, and sleeve mass, spring or friction without either.
     explicit SleeveGovernor(const GovernorData& data);
 
     const GovernorData& data() const noexcept { return data_; }
