@@ -186,7 +186,7 @@ struct Branches {
     bool consistent = false;
     bool complete = false;          ///< consistent, and proved: none is missing above that height
     std::vector<double> looked_at;  ///< conical heights of those lists, descending
-    std::string remark;             ///< what may be missing
+    std::string remark;             ///< what is proved, or may be missing
 };
 
 /// The whole diagram of branches from the first critical speed to the conical height or speed

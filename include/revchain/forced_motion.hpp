@@ -52,8 +52,8 @@ struct ForcedMotion {
 /// 1e-12 of the largest offset, and at most ten times `error_estimate`. Cost: 2 microseconds for
 /// each link and speed.
 /// Throws InvalidArgument unless one of radius, acceleration and force is given or the rig's own
-/// support has a radius, all are finite, speeds are not 0 and positive without momentum; for a force
-/// on a firm support, and for dashpots in a fluid that turns.
+/// support has a radius, all are finite, gravity is positive, speeds are not 0 and positive without
+/// momentum; for a force on a firm support, and for dashpots in a fluid that turns.
 REVCHAIN_DECLARE
 [[nodiscard]] ForcedMotion forced_motion(const Rig& rig, const ForcedMotionOptions& options);
 

@@ -107,7 +107,7 @@ struct HeldCordShapesOptions {
 /// For each number of half waves the first shape is reached by continuation from the nearly
 /// straight chain without gravity. The ends approach, then move to their radii and springs, then
 /// gravity grows. At a given tension it is followed by all other shapes on that branch with this
-/// tension at the upper end. For a chain all other shapes found come last.
+/// tension at the upper end. Other shapes of a chain come last among those with as many half waves.
 ///
 /// `missing` lists the numbers of half waves without a shape. `complete` is true if it is proved
 /// that there is no other shape with 1 to `max_half_waves` half waves. For a cord this is possible
@@ -202,7 +202,7 @@ struct HeldDiagramOptions {
 /// It ends where a link becomes slack or turns over (`slack`), the cord hangs folded along the axis
 /// (`folded`), the greatest speed is reached again (`speed`), the conical height is 10,000 lengths
 /// (`rest`: off the axis), or 3000 steps are done (`budget`). `HeldBranch::mode` numbers the
-/// branches. Between ends off the axis each number k has two branches: mode 2 k - 1, whose lowest
+/// branches. If an end is off the axis each number k has two branches: mode 2 k - 1, whose lowest
 /// link first leads outwards, and mode 2 k, whose lowest link first leads inwards. A branch that
 /// returns to the greatest speed where another would begin stands for both.
 ///

@@ -83,7 +83,7 @@ struct Modes {
     const Table<T>& shapes(Progress* progress = nullptr) const {
         return lazy_shapes_.offsets(size(), progress);
     }
-    /// (k,) largest unbalanced force at a pin over the largest sum of forces at a pin
+    /// (k,) largest unbalanced force at a pin over the largest sum of magnitudes at a pin
     const Vector<T>& residual() const { return details().residual; }
     /// k lists: distances from the free end at which the mode crosses the axis
     const std::vector<Vector<T>>& nodes() const { return details().nodes; }

@@ -36,7 +36,8 @@ struct ResponseOptions {
 /// numbers are amplitudes: multiply offsets and forces by cos(n t).
 struct Response {
     std::vector<Index> pins;
-    Table<double> offset;  ///< (speeds, pins) positive on the side of the support; NaN at resonance
+    /// (speeds, pins) positive on the side of the support; at resonance NaN, but not of the support
+    Table<double> offset;
     Vector<double> error_bound;    ///< of every offset, over the largest; infinite at resonance
     Vector<Index> modes_below;     ///< slower modes, proved; without a resonant one
     std::vector<char> reversed;    ///< whether the free end is opposite to the support
