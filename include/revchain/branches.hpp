@@ -40,9 +40,9 @@ enum class BranchEnd {
     closed,    ///< at its first point
     budget,    ///< after `max_points` points
     stuck,     ///< no step passes every check
-    slow,   ///< on the way to rest, at a tenth of the critical speed or below
-    slack,  ///< flywheels make the effective tension of a link 0: it becomes horizontal
-    loose,  ///< the spring at the support cannot hold the rig: it is stretched to 1000 lengths
+    slow,      ///< on the way to rest, at a tenth of the critical speed or below
+    slack,     ///< flywheels make the effective tension of a link 0: it becomes horizontal
+    loose,     ///< the spring at the support cannot hold the rig: it is stretched to 1000 lengths
 };
 [[nodiscard]] inline std::string_view to_string(BranchEnd end) noexcept {
     constexpr std::string_view names[]{"height", "vertical", "closed", "budget",
@@ -261,7 +261,8 @@ inline constexpr std::size_t all_shapes = std::numeric_limits<std::size_t>::max(
 /// Shapes of one branch, in the order of its arc.
 struct ShapesOnBranch {
     std::vector<SteadyShape> shapes;
-    BranchEnd end = BranchEnd::height;  ///< why the search ended; `budget`: after 100,000 steps
+    /// why the search ended; `height` also after `max_shapes`; `budget`: after 100,000 steps
+    BranchEnd end = BranchEnd::height;
     double searched_to = 0;             ///< the conical height at which it ended
     bool from_rest = false;             ///< the branch begins at rest: the support is off the axis
 };

@@ -10,7 +10,8 @@
 #include "revchain/modes.hpp"
 #include "revchain/numeric/compiled.hpp"
 
-/// The method that `modes` tries first for a tolerance, and the predicted costs of the others.
+/// The method that `modes`, with all of methods.hpp, tries first for a tolerance, and the predicted
+/// costs of the others.
 ///
 ///     const auto rods = revchain::Chain<double>::uniform_rods(100'000, 0.36);
 ///     const auto e = revchain::explain(rods, {.count = 3, .rtol = 1e-2});
@@ -40,10 +41,10 @@ struct ExplainOptions {
     std::optional<double> rtol{};  ///< of the conical heights; absent: full accuracy
 };
 
-/// Returns the method that `modes` of a chain tries first. No mode is computed. If that method
-/// cannot prove its bound for this chain, `modes` takes the next one; `Modes::method` names the
-/// method used. Each method meets its error bound; bench/models.cpp compares predicted with
-/// measured times. Throws as `modes`.
+/// Returns the method that `modes` of a chain, with all of methods.hpp, tries first. No mode is
+/// computed. If that method cannot prove its bound for this chain, `modes` takes the next one;
+/// `Modes::method` names the method used. Each method meets its error bound; bench/models.cpp
+/// compares predicted with measured times. Throws as `modes`.
 REVCHAIN_DECLARE
 [[nodiscard]] Explanation explain(const Chain<double>& chain, const ExplainOptions& options = {});
 

@@ -59,7 +59,8 @@ struct Swing {
 /// rounding. Accuracy measured (tests/cpp/swing.cpp): 2e-16 of the sum of the modes' amplitudes.
 /// Cost: 0.5 microseconds for each link and mode, and 3 ns for each link, mode and time. Throws
 /// InvalidArgument for starts that are not finite or of another length, a support that moves, a
-/// count above the number of modes, gravity <= 0, times not finite, weights more than 1e123 apart.
+/// count below 0 or above the number of modes, gravity <= 0, times not finite, weights more than
+/// 1e123 apart.
 REVCHAIN_DECLARE
 [[nodiscard]] Swing swing(const Chain<double>& chain, const SwingOptions& options);
 
@@ -70,7 +71,7 @@ REVCHAIN_DECLARE
 /// throws InvalidArgument if a flywheel has momentum (use `whirl_swing`), for a support that is
 /// carried round (use `response`), for a fluid that turns, and for springs at pins, dashpots,
 /// linear drag and a trolley that rolls freely (use `transient`). It also throws if the straight
-/// rig is unstable or in neutral balance (the message says how fast it falls), and for lowest links
+/// rig is unstable (the message says how fast it falls) or in neutral balance, and for lowest links
 /// without inertia.
 REVCHAIN_DECLARE
 [[nodiscard]] Swing swing(const Rig& rig, const SwingOptions& options);
