@@ -175,9 +175,10 @@ struct CordDiagramOptions {
 ///
 /// Method: `branch` from every mode. If no theorem counts the shapes, lists of shapes
 /// (`steady_shapes`) at `lists` heights are compared with the branches. A shape that no branch
-/// passes lies on an isolated branch, which is followed to its end. `complete` is true if a theorem
-/// counts the shapes (finite/cord/continuous_chain.hpp): those of a uniform cord, of a power s^p
-/// without a tip or with p below 0, and of every cord with at most one slower mode.
+/// passes lies on an isolated branch, which is followed to its end. `complete` is true if all
+/// branches reach the end and a theorem counts the shapes (finite/cord/continuous_chain.hpp): those
+/// of a uniform cord, of a power s^p without a tip or with p below 0, and of every cord with at
+/// most one slower mode.
 /// Accuracy: as `branch`. Throws InvalidArgument as `branch`, and for `lists` below 1.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordBranches branches(const Cord& cord, const CordDiagramOptions& options);
