@@ -204,16 +204,16 @@ REVCHAIN_DECLARE_ANALYTIC
 /// Method: Galerkin's, with polynomials on panels (finite::DisturbedCord), twice: with 8 and with
 /// 10 nodes a panel. `exponents` are the slowest of infinitely many, by imaginary part, up to the
 /// first on which the two results differ by more than 1e-6 of its size. `margin` covers the
-/// difference of the two growth rates. If verdicts or numbers of negative directions differ, the
-/// verdict is `undecided`. Only finitely many directions have negative energy, and only as many
-/// motions can grow, so the omitted motions of high frequency do not grow. `internal_damping` is
-/// NaN: friction in bending needs a stiffness, which a cord does not have. `external_damping` is
-/// for the drag of still air on a piece of cord over its length and velocity, as for a chain.
-/// Accuracy: exponents to 1e-8 (measured against the modes, 1e-9 below a critical speed; with a tip
-/// to 2e-9 against chains with Richardson's extrapolation: tests/python/test_cord_branches.py).
-/// Exponents of N links differ from them as 1/N^2 (tests/cpp/cord_branches.cpp). Cost: that of a
-/// chain with 10 links a panel; each half wave has two panels or more. Throws InvalidArgument if
-/// the lengths differ.
+/// difference of the two growth rates. If the numbers of negative directions differ, or the growth
+/// rate is near `margin`, the verdict is `undecided`. Only finitely many directions have negative
+/// energy, and only as many motions can grow, so the omitted motions of high frequency do not grow.
+/// `internal_damping` is NaN: friction in bending needs a stiffness, which a cord does not have.
+/// `external_damping` is for the drag of still air on a piece of cord over its length and velocity,
+/// as for a chain. Accuracy: exponents to 1e-8 (measured against the modes, 1e-9 below a critical
+/// speed; with a tip to 2e-9 against chains with Richardson's extrapolation:
+/// tests/python/test_cord_branches.py). Exponents of N links differ from them as 1/N^2
+/// (tests/cpp/cord_branches.cpp). Cost: that of a chain with 10 links a panel; each half wave has
+/// two panels or more. Throws InvalidArgument if the lengths differ.
 REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Cord& cord, const CordShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);

@@ -51,7 +51,7 @@ struct Stability {
     std::vector<std::complex<double>> exponents;
     std::vector<double> exponent_error;  ///< of each, estimated with errors of shape and pulls
     double growth_rate = 0;  ///< largest real part of an exponent, at least 0; NaN if unknown
-    double margin = 0;       ///< the largest `exponent_error`
+    double margin = 0;       ///< the largest `exponent_error`; of a cord see cord.hpp
     /// negative eigenvalues of the energy's Hessian; if free, amended, without the rotation
     Index negative_directions = 0;
     /// The effect of a small damping c on each exponent, to first order: this number times g c is
