@@ -62,10 +62,11 @@ struct BatchOptions {
 /// bitwise the same for any number of threads and any order of the chains; another `count` or
 /// processor may change last digits. Cost: 0.4 microseconds for all modes of ten links. Memory: the
 /// result, and a few numbers for each link of 16 chains a thread.
-/// Throws InvalidArgument, first of all, for a number that `Chain` refuses, naming chain, link and
-/// value. Also throws for an empty batch, a count below 1 or beyond the modes of some chain, a
-/// negative number of threads, and a chain whose heights cannot be proved to half the digits of T.
-/// Massless links cost modes; chains with different numbers of modes need a count.
+/// Throws InvalidArgument for a number that `Chain` refuses, naming chain, link and value. Also
+/// throws for chains without links, a negative number of chains, a count below 1 or beyond the
+/// modes of some chain, a negative number of threads, and a chain whose heights cannot be proved to
+/// half the digits of T. Massless links cost modes; chains with different numbers of modes need a
+/// count.
 template <Real T>
 [[nodiscard]] Table<T> conical_heights(const ChainBatch<T>& batch,
                                        const BatchOptions& options = {});

@@ -120,7 +120,8 @@ struct Strike {
 /// on a side of the bell moves with it while the bell pushes it, then flies free. Angles count from
 /// the lowest position of the bell, inverted or not; if one of the two bodies is inverted, the
 /// clapper points the other way in the middle of the bell. Throws InvalidArgument for angles out of
-/// range. Cost: 0.1 ms.
+/// range, gravity not positive, and without `amplitude` if one of the two bodies is inverted.
+/// Cost: 0.1 ms.
 [[nodiscard]] Strike first_strike(const BellAndClapper<double>& bell, const StrikeStart& start);
 
 }  // namespace revchain

@@ -25,8 +25,8 @@
 ///     shape.angular_speed();                       // 2.34160 rad/s: the free end at 2 m
 ///
 /// The branch of a mode leaves the vertical at the mode's critical speed. It may turn back at folds
-/// and pass one speed several times. An isolated branch begins in a fold and never reaches the
-/// vertical.
+/// and pass one speed several times. An isolated branch begins in a fold, as the speed grows, and
+/// never reaches the vertical.
 namespace revchain::inline REVCHAIN_BUILD {
 
 template <class System>
@@ -40,10 +40,9 @@ enum class BranchEnd {
     closed,    ///< at its first point
     budget,    ///< after `max_points` points
     stuck,     ///< no step passes every check
-    slow,   ///< on the way to rest, at a tenth of the first critical speed, or of the given one if
-            ///< slower
-    slack,  ///< flywheels make the effective tension of a link 0: it becomes horizontal
-    loose,  ///< the spring at the support cannot hold the rig: it is stretched to 1000 lengths
+    slow,      ///< on the way to rest, at a tenth of the critical speed or below
+    slack,     ///< flywheels make the effective tension of a link 0: it becomes horizontal
+    loose,     ///< the spring at the support cannot hold the rig: it is stretched to 1000 lengths
 };
 [[nodiscard]] inline std::string_view to_string(BranchEnd end) noexcept {
     constexpr std::string_view names[]{"height", "vertical", "closed", "budget",
@@ -55,7 +54,7 @@ enum class BranchEnd {
 enum class BranchBirth {
     vertical,  ///< it leaves the straight chain at the critical speed of a mode
     rest,      ///< at rest: the support is off the axis, and the rig starts to turn
-    fold,      ///< isolated: it begins at a fold, where two shapes appear together, or is closed
+    fold,      ///< isolated: it is closed, or two shapes appear together in a fold
 };
 [[nodiscard]] inline std::string_view to_string(BranchBirth birth) noexcept {
     constexpr std::string_view names[]{"vertical", "rest", "fold"};
@@ -104,12 +103,12 @@ struct BranchOptions {
     std::optional<double> max_angular_speed{};  ///< rad/s
     std::size_t max_points = 10'000;
     double max_step = 0.1;                                ///< along the arc
-    double gravity = conical_pendulum::standard_gravity;  ///< for speeds and flywheels
+    double gravity = conical_pendulum::standard_gravity;  ///< with `max_angular_speed`
 };
 
 /// Selects a branch of a rig, and how far to follow it. Members are as in `BranchOptions`.
 struct RigBranchOptions {
-    Index mode = 1;  ///< among those in the direction of rotation
+    Index mode = 1;  ///< among those in the direction of rotation; off the axis 1
     std::optional<double> min_conical_height{};
     std::optional<double> max_angular_speed{};  ///< rad/s
     std::size_t max_points = 10'000;
@@ -119,7 +118,7 @@ struct RigBranchOptions {
 };
 
 /// The branch of steady shapes that leaves the vertical at a mode, followed along its arc through
-/// every fold until it first reaches the conical height or speed given.
+/// every fold until it first reaches the conical height or speed given, or ends as in `BranchEnd`.
 ///
 /// Method: pseudo-arclength continuation of all pins at once with tridiagonal elements, in double.
 /// Each step is checked: see finite::BranchWalk. Accuracy: points about 1e-12 (measured:
@@ -129,8 +128,8 @@ struct RigBranchOptions {
 /// of the onset, balanced in double-double. If double cannot tell that end from the vertical, the
 /// vertical is the only point (`stuck`). Cost: 0.4 microseconds a link and point; 3 N numbers a
 /// point. Throws InvalidArgument for a mode number outside 1 ... `chain.mode_count()`, unless
-/// exactly one of height and speed is given, positive and finite, and for a height not below that
-/// of the mode.
+/// exactly one of height and speed is given, positive and finite, for a height not below that of
+/// the mode, and weights more than 1e123 apart.
 REVCHAIN_DECLARE
 [[nodiscard]] Branch branch(const Chain<double>& chain, const BranchOptions& options);
 
@@ -141,10 +140,11 @@ REVCHAIN_DECLARE
 /// (of the rig with its support on the axis), or of the given speed if that is slower. `branches`
 /// finds the other branches. If links stand or lean against their load, a branch may begin towards
 /// slower speeds; it is followed down to a tenth of the speed of its mode. Along a branch every
-/// link keeps its posture. In the arc, the stretch of a spring over the length of the chain is tau
-/// of one more link.
+/// link keeps its posture. In the arc, the stretch of a spring over the length of the chain is
+/// sinh(tau) of one more link.
 /// Accuracy and cost: as for chains (tests/cpp/finite/branch/rigs.cpp). Throws InvalidArgument as
-/// for chains, and off the axis for a `mode` other than 1.
+/// for chains, off the axis for a `mode` other than 1, and for springs at pins, linear drag, a
+/// dashpot at the support and a trolley that rolls freely.
 REVCHAIN_DECLARE
 [[nodiscard]] Branch branch(const Rig& rig, const RigBranchOptions& options);
 
@@ -159,7 +159,7 @@ struct DiagramOptions {
     long budget = 3'000'000;  ///< of each list, see SteadyShapesOptions
     long proof_budget =
         1'000'000;  ///< link evaluations in the proof; with `thorough`
-    double gravity = conical_pendulum::standard_gravity;  ///< for speeds and flywheels
+    double gravity = conical_pendulum::standard_gravity;  ///< with `max_angular_speed`
 };
 
 /// Sets how far to follow branches of a rig, in one direction of rotation. See `DiagramOptions`.
@@ -178,15 +178,15 @@ struct RigDiagramOptions {
 /// All branches found above one conical height.
 struct Branches {
     /// First the branches of the modes, slowest first, or the branch from rest; then isolated
-    /// branches, sorted by their first point.
+    /// branches, by their largest conical height, descending.
     std::vector<Branch> branches;
     double conical_height = 0;  ///< lowest conical height of the diagram
-    /// true if every branch ends at that height or is closed, and at every height of `looked_at`
-    /// the branches pass each shape of the proved list once, and no other shape
+    /// true if every branch ends as `height`, `closed`, `slow` or `loose`, and at every height of
+    /// `looked_at` the branches pass each shape of the proved list once, and no other shape
     bool consistent = false;
-    bool complete = false;          ///< consistent, and proved: no branch is missing, at any height
+    bool complete = false;          ///< consistent, and proved: none is missing above that height
     std::vector<double> looked_at;  ///< conical heights of those lists, descending
-    std::string remark;             ///< what may be missing
+    std::string remark;             ///< what is proved, or may be missing
 };
 
 /// The whole diagram of branches from the first critical speed to the conical height or speed
@@ -194,14 +194,14 @@ struct Branches {
 ///
 /// Method: `branch` from every mode, then proved lists of all shapes (`steady_shapes`) at `lists`
 /// heights from the end up. Each shape is matched with a crossing of a branch. A shape without one
-/// lies on an isolated branch, which is followed from it both ways. `consistent` is true if all
-/// lists are proved complete and every shape in them is met once. With `thorough` as the last
+/// lies on an isolated branch, which is followed from it to its end. With `thorough` as the last
 /// argument, or revchain::compiled, finite::DiagramProver then sets `complete`: it proves that no
-/// loop opens and closes between two of the heights, or finds it. `complete` is false if the budget
-/// of the proof is used up, or if links could hang at several inclinations; `remark` names the
-/// heights. The proof shows where branches are. It is checked, not proved, that a computed branch
-/// is one of them (see finite::BranchWalk). Accuracy: as `branch`. Cost with `thorough`: down to
-/// 1/200 of the length, 5 ms for three equal plummets and 50 ms for six.
+/// loop opens and closes between two of the heights, or finds it. `complete` is false if
+/// `consistent` is, if the budget of the proof is used up (`remark` then names the heights), or if
+/// links could hang at several inclinations. The proof shows where branches are. It is checked, not
+/// proved, that a computed branch is one of them (see finite::BranchWalk). Accuracy: as `branch`.
+/// Cost with `thorough`: down to 1/200 of the length, 5 ms for three equal plummets and 50 ms for
+/// six.
 /// Throws InvalidArgument unless one of height and speed is given, positive and finite, and `lists`
 /// >= 1; without `thorough` also for links that stand or may hang at several inclinations.
 REVCHAIN_DECLARE
@@ -220,7 +220,8 @@ REVCHAIN_DECLARE
 /// energy in the turning frame is a convex function of the sines of the inclinations. A spring
 /// cannot hold the rig at heights where its stiffness times the conical height is less than the
 /// weight that moves. Such heights are not proved, and `remark` says so.
-/// Throws InvalidArgument as for chains, and if an effective tension is 0 at the height of a list.
+/// Throws InvalidArgument as for chains, for a rig that `branch` refuses, and if an effective
+/// tension is 0 at the height of a list.
 REVCHAIN_DECLARE
 [[nodiscard]] Branches branches(const Rig& rig, const RigDiagramOptions& options);
 REVCHAIN_DECLARE
@@ -231,11 +232,11 @@ REVCHAIN_DECLARE
 struct OnBranchOptions {
     Index mode = 1;  ///< of the branch, as in `BranchOptions`
     std::optional<double> conical_height{};
-    std::optional<double> angular_speed{};    ///< rad/s, positive in both directions
+    std::optional<double> angular_speed{};    ///< rad/s
     std::optional<double> tip_inclination{};  ///< of the lowest link, rad, above 0 and below pi/2
     std::optional<double> tip_radius{};       ///< of the free end from the axis
     std::optional<double> top_tension{};      ///< magnitude of the reaction at the support
-    double gravity = conical_pendulum::standard_gravity;  ///< for speeds and flywheels
+    double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`
     /// Lowest conical height searched. Absent: 1e-6 of the mode's, or half of the
     /// height given (or g/n^2).
     std::optional<double> min_conical_height{};
@@ -260,7 +261,8 @@ inline constexpr std::size_t all_shapes = std::numeric_limits<std::size_t>::max(
 /// Shapes of one branch, in the order of its arc.
 struct ShapesOnBranch {
     std::vector<SteadyShape> shapes;
-    BranchEnd end = BranchEnd::height;  ///< why the search ended; `budget`: after 100,000 steps
+    /// why the search ended; `height` also after `max_shapes`; `budget`: after 100,000 steps
+    BranchEnd end = BranchEnd::height;
     double searched_to = 0;             ///< the conical height at which it ended
     bool from_rest = false;             ///< the branch begins at rest: the support is off the axis
 };
@@ -286,8 +288,9 @@ REVCHAIN_DECLARE
 /// it must be 1: the branch from rest, followed from a ten-thousandth of the first critical speed,
 /// or from below the given speed. `tip_inclination` is the magnitude of the lowest link's
 /// inclination, off the axis the inclination outwards; it is between pi/2 and pi if that link
-/// stands. `top_tension` is the tension at the topmost pin, as in `SteadyShape::tension`. Also
-/// throws InvalidArgument for a link without effective tension.
+/// stands. `top_tension` is the tension at the topmost pin, as in `SteadyShape::tension`. Throws
+/// InvalidArgument as for chains, for a rig that `branch` refuses, and for a link without
+/// effective tension.
 REVCHAIN_DECLARE
 [[nodiscard]] SteadyShape steady_shape(const Rig& rig, const RigOnBranchOptions& options);
 

@@ -51,7 +51,8 @@ class BufferImpact {
     explicit BufferImpact(const Carriages& given);
 
     const std::vector<Blow>& blows() const noexcept { return blows_; }
-    /// The state at a time. Throws InvalidArgument for a time that is negative or not finite.
+    /// The state at a time. Throws InvalidArgument for a time that is negative, or so large that
+    /// the state overflows.
     [[nodiscard]] CarriageState operator()(double time) const;
 
    private:

@@ -41,7 +41,7 @@ struct Campbell {
     /// does not oscillate or there is no such shape
     Table<double> frequency;
     std::vector<bool> stable;  ///< there is a shape, and its verdict is not `unstable`
-    std::vector<CampbellCrossing> crossings;  ///< by order, then by speed
+    std::vector<CampbellCrossing> crossings;  ///< by order, pair of speeds, motion
 };
 
 /// Returns the frequencies of small motion about the steady shape with `half_waves` at each speed.
@@ -52,12 +52,12 @@ struct Campbell {
 /// Method: `steady_shapes` and `stability` at each speed (with `thorough` only in programs that
 /// link revchain::compiled). Where a frequency less a multiple of the speed changes sign between
 /// two speeds, its zero is found by interpolation; a sign that changes in a jump is not a crossing.
-/// Two crossings between neighbouring speeds are not seen. Accuracy: that of the exponents, 1e-13
-/// of the largest; crossings 1e-12 (tests/cpp/campbell.cpp). Cost: a list of shapes and a stability
-/// at each speed, and at several speeds for each crossing. Throws InvalidArgument unless there are
-/// two speeds or more, positive, finite and ascending, all orders and `half_waves` at least 1, and
-/// a shape at some speed; and as `steady_shapes` and `stability`. Source: W. Campbell, Trans. ASME
-/// 46 (1924).
+/// Two crossings of one motion between neighbouring speeds are not seen. Accuracy: that of the
+/// exponents, 1e-13 of the largest; crossings 1e-12 (tests/cpp/campbell.cpp). Cost: a list of
+/// shapes and a stability at each speed, and at several speeds for each crossing. Throws
+/// InvalidArgument unless there are two speeds or more, positive, finite and ascending, an order or
+/// more, all at least 1, `half_waves` at least 1, gravity positive, and a shape at some speed; and
+/// as `steady_shapes` and `stability`. Source: W. Campbell, Trans. ASME 46 (1924).
 REVCHAIN_DECLARE
 [[nodiscard]] Campbell campbell(const Chain<double>& chain, const CampbellOptions& options);
 

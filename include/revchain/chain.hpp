@@ -21,7 +21,7 @@
 ///     rods.link(0).length;                                                  // 0.003 m
 ///
 /// `plummet`, `uniform_rod` and `compound_pendulum` make links. Lengths and weights may be in any
-/// unit: speeds depend on ratios of weights only. Numbers are stored as given. Greenhill (1908) §8.
+/// unit; only ratios of weights matter to speeds. Numbers are stored as given. Greenhill (1908) §8.
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// Powers of two that bring the total weight and the largest length to the order of 1. Scaling by
@@ -90,7 +90,7 @@ class Chain {
     const Column<T>& centroid() const noexcept { return centroid_; }
     const Column<Wide<T>>& gyration_ratio() const noexcept { return gyration_ratio_; }
 
-    /// The number of finite conical heights: N, less one for each coordinate without inertia.
+    /// The number of modes, which have positive heights: N, less 1 for each massless coordinate.
     Index mode_count() const noexcept { return mode_count_; }
     T total_weight() const { return total_weight_; }
     /// Weight below link m, 0 <= m <= size(), as `Wide<T>`. Its error is at most that of 14

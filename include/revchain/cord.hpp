@@ -154,9 +154,9 @@ REVCHAIN_DECLARE_ANALYTIC
 /// checked, not proved (finite::BranchLineWalk). No folds exist where a theorem counts the shapes.
 /// Accuracy: points within 1e-12; heights of folds within 1e-9, relative
 /// (tests/cpp/cord_branches.cpp). Cost: a few paths a point (`steady_shapes`).
-/// Throws InvalidArgument for a mode number below 1 or above 1e5, for a height not below that of
-/// the mode, for a length above 1e6 heights, and unless exactly one of height and speed is given,
-/// positive and finite.
+/// Throws InvalidArgument for a bob, a mode number below 1 or above 1e5, for a height not below
+/// that of the mode, for a length above 1e6 heights, and unless exactly one of height and speed is
+/// given, positive and finite.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordBranch branch(const Cord& cord, const BranchOptions& options);
 
@@ -175,9 +175,10 @@ struct CordDiagramOptions {
 ///
 /// Method: `branch` from every mode. If no theorem counts the shapes, lists of shapes
 /// (`steady_shapes`) at `lists` heights are compared with the branches. A shape that no branch
-/// passes lies on an isolated branch, which is followed both ways. `complete` is true if a theorem
-/// counts the shapes (finite/cord/continuous_chain.hpp): those of a uniform cord, of a power s^p
-/// without a tip or with p below 0, and of every cord with at most one mode.
+/// passes lies on an isolated branch, which is followed to its end. `complete` is true if all
+/// branches reach the end and a theorem counts the shapes (finite/cord/continuous_chain.hpp): those
+/// of a uniform cord, of a power s^p without a tip or with p below 0, and of every cord with at
+/// most one slower mode.
 /// Accuracy: as `branch`. Throws InvalidArgument as `branch`, and for `lists` below 1.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordBranches branches(const Cord& cord, const CordDiagramOptions& options);
@@ -187,7 +188,8 @@ REVCHAIN_DECLARE_ANALYTIC
 ///
 /// Accuracy: the shape is within its `error_bound`, an estimate, of the exact one at its conical
 /// height. That height is the given one, or within 1e-14 of the one at which the number is reached
-/// (tests/cpp/cord_branches.cpp). Cost: that of the branch up to there. Throws as for a chain.
+/// (tests/cpp/cord_branches.cpp). Cost: that of the branch up to there. Throws as for a chain, and
+/// for a bob.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordShape steady_shape(const Cord& cord, const OnBranchOptions& options);
 
@@ -202,16 +204,16 @@ REVCHAIN_DECLARE_ANALYTIC
 /// Method: Galerkin's, with polynomials on panels (finite::DisturbedCord), twice: with 8 and with
 /// 10 nodes a panel. `exponents` are the slowest of infinitely many, by imaginary part, up to the
 /// first on which the two results differ by more than 1e-6 of its size. `margin` covers the
-/// difference of the two growth rates. If verdicts or numbers of negative directions differ, the
-/// verdict is `undecided`. Only finitely many directions have negative energy, and only as many
-/// motions can grow, so the omitted motions of high frequency do not grow. `internal_damping` is
-/// NaN: friction in bending needs a stiffness, which a cord does not have. `external_damping` is
-/// for the drag of still air on a piece of cord over its length and velocity, as for a chain.
-/// Accuracy: exponents to 1e-8 (measured against the modes, 1e-9 below a critical speed; with a tip
-/// to 2e-9 against chains with Richardson's extrapolation: tests/python/test_cord_branches.py).
-/// Exponents of N links differ from them as 1/N^2 (tests/cpp/cord_branches.cpp). Cost: that of a
-/// chain with 10 links a panel; each half wave has two panels or more. Throws InvalidArgument if
-/// the lengths differ.
+/// difference of the two growth rates. If the numbers of negative directions differ, or the growth
+/// rate is near `margin`, the verdict is `undecided`. Only finitely many directions have negative
+/// energy, and only as many motions can grow, so the omitted motions of high frequency do not grow.
+/// `internal_damping` is NaN: friction in bending needs a stiffness, which a cord does not have.
+/// `external_damping` is for the drag of still air on a piece of cord over its length and velocity,
+/// as for a chain. Accuracy: exponents to 1e-8 (measured against the modes, 1e-9 below a critical
+/// speed; with a tip to 2e-9 against chains with Richardson's extrapolation:
+/// tests/python/test_cord_branches.py). Exponents of N links differ from them as 1/N^2
+/// (tests/cpp/cord_branches.cpp). Cost: that of a chain with 10 links a panel; each half wave has
+/// two panels or more. Throws InvalidArgument if the lengths differ.
 REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Cord& cord, const CordShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);
@@ -255,9 +257,9 @@ struct CordSwing {
 /// Accuracy, measured against long chains (tests/cpp/cord_branches.cpp): coefficients to 1e-13 of
 /// the largest, angles to rounding, 1e-16 times the number of swings. Cost: offsets of 2 k modes at
 /// several hundred arc lengths.
-/// Throws InvalidArgument unless starts are finite, continuous, of the length of `arc_length` and 0
-/// at the support, for arc lengths out of order, a count below 1 or above 1e4, gravity not positive
-/// and times not finite.
+/// Throws InvalidArgument for a bob, unless starts are finite, continuous, of the length of
+/// `arc_length` and 0 at the support, for arc lengths out of order, a count below 1 or above 1e4,
+/// gravity not positive and times not finite.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordSwing swing(const Cord& cord, const CordSwingOptions& options);
 

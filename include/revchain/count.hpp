@@ -146,12 +146,13 @@ class ModeCounter {
     detail::Pencils<T> pencils_;
 };
 
-/// The speed below which modes are counted. Give either `conical_height` or `angular_speed`.
+/// The speed below which modes are counted. Give either `conical_height` or `angular_speed`. For a
+/// rig a negative speed is backward.
 template <Real T>
 struct CountOptions {
     std::optional<T> conical_height{};                  ///< modes with a larger one
     std::optional<T> angular_speed{};                   ///< rad/s: modes slower than it
-    T gravity = T(conical_pendulum::standard_gravity);  ///< with `angular_speed`
+    T gravity = T(conical_pendulum::standard_gravity);  ///< with `angular_speed`, for flywheels
 };
 
 /// The number of modes slower than a speed, proved; Greenhill (1908) §8 (21). Accuracy and ties:

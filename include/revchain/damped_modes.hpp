@@ -39,7 +39,7 @@ struct DampedModes {
     Vector<std::complex<double>> exponent{};
     Vector<double> error_bound{};          ///< (k,) of the exponent, relative to its size; proved
     Vector<double> error_estimate{};       ///< (k,) likewise, if the bound is infinite: not proved
-    Table<std::complex<double>> shapes{};  ///< (k, N+1) offsets, free end first, largest size 1
+    Table<std::complex<double>> shapes{};  ///< (k, N+1) offsets, free end first, largest 1
     bool complete = false;                 ///< whether it is proved that there are no other modes
     Status status = Status::success;       ///< `tolerance_not_met`: a bound is not proved
 
@@ -62,8 +62,8 @@ struct DampedModes {
 /// bound is infinite and `error_estimate` has the size of the last correction. Accuracy: every
 /// exponent is within `error_bound`, which is usually below 1e-15 (tests/cpp/damped_modes.cpp).
 /// Cost O(N^3).
-/// Throws InvalidArgument for mode numbers below 1, gravity not positive, more than 1000 links,
-/// dashpots in a fluid that turns, and numbers too far apart for the first-order form.
+/// Throws InvalidArgument for `first` or `count` below 1, gravity not positive, more than 1000
+/// links, dashpots in a fluid that turns, and numbers too far apart for the first-order form.
 REVCHAIN_DECLARE
 [[nodiscard]] DampedModes damped_modes(const Rig& rig, const DampedModesOptions& options = {});
 

@@ -93,8 +93,9 @@ struct DragShape {
 /// (cross-flow principle); of the elimination: that of finite::balance. Cost: O(N) for each step of
 /// the continuation (`DragShape::steps`).
 /// Throws InvalidArgument for a speed of 0, a support on the axis, a fluid that turns, springs at
-/// pins, a dashpot at the support, a trolley that rolls freely, lists of another length, negative
-/// numbers; with `half_waves` also if there is no such shape, and as `steady_shapes`.
+/// pins, linear drag (`Rigging::drag`), a dashpot at the support, a trolley that rolls freely,
+/// lists of another length, negative numbers; with `half_waves` also if there is no such shape, and
+/// as `steady_shapes`.
 REVCHAIN_DECLARE
 [[nodiscard]] DragShape drag_shape(const Rig& rig, const Drag& drag,
                                    const DragShapeOptions& options);

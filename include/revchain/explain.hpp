@@ -10,7 +10,8 @@
 #include "revchain/modes.hpp"
 #include "revchain/numeric/compiled.hpp"
 
-/// The method that `modes` tries first for a tolerance, and the predicted costs of the others.
+/// The method that `modes`, with all of methods.hpp, tries first for a tolerance, and the predicted
+/// costs of the others.
 ///
 ///     const auto rods = revchain::Chain<double>::uniform_rods(100'000, 0.36);
 ///     const auto e = revchain::explain(rods, {.count = 3, .rtol = 1e-2});
@@ -33,22 +34,22 @@ struct Explanation {
     [[nodiscard]] std::string text() const;
 };
 
-/// Selects modes and sets their tolerance, as `ModesOptions` does.
+/// Selects modes by number and sets their tolerance, as `ModesOptions` does.
 struct ExplainOptions {
     Index first = 1;               ///< from 1 for the slowest
     std::optional<Index> count{};  ///< or `all_modes`; absent: at most 10
     std::optional<double> rtol{};  ///< of the conical heights; absent: full accuracy
 };
 
-/// Returns the method that `modes` of a chain tries first. No mode is computed. If that method
-/// cannot prove its bound for this chain, `modes` takes the next one; `Modes::method` names the
-/// method used. Each method meets its error bound; bench/models.cpp compares predicted with
-/// measured times. Throws as `modes`.
+/// Returns the method that `modes` of a chain, with all of methods.hpp, tries first. No mode is
+/// computed. If that method cannot prove its bound for this chain, `modes` takes the next one;
+/// `Modes::method` names the method used. Each method meets its error bound; bench/models.cpp
+/// compares predicted with measured times. Throws as `modes`.
 REVCHAIN_DECLARE
 [[nodiscard]] Explanation explain(const Chain<double>& chain, const ExplainOptions& options = {});
 
-/// Deleted: modes of rigs, cords and held systems have one method for each kind of system. Call
-/// `modes` and read `RigModes::method`, `CordModes::method` or `Modes::method`.
+/// Deleted: for rigs, cords and held systems there is no choice of methods by cost. Call `modes`
+/// and read `RigModes::method`, `CordModes::method` or `Modes::method`.
 Explanation explain(const Rig& rig, const ExplainOptions& options = {}) = delete;
 Explanation explain(const Cord& cord, const ExplainOptions& options = {}) = delete;
 template <class System>

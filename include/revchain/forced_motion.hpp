@@ -46,14 +46,14 @@ struct ForcedMotion {
 /// Forced motion, after free motions have died away: Q(i n) q = load with the matrices of
 /// `damped_modes`. The support's own dashpot acts on its velocity over the ground.
 ///
-/// Method: elimination of one rotation after the other in complex double words, O(N), corrected
-/// once. The estimate adds the correction, the effect of a relative change of 2^-90 of the speed,
-/// and half an ulp. Accuracy measured for random rigs (tests/cpp/forced_motion.cpp): 1e-12 of the
-/// largest offset, and at most ten times `error_estimate`. Cost: 2 microseconds for each link and
-/// speed.
+/// Method: elimination of the links' rotations, one after the other, in complex double words, O(N),
+/// corrected once. The estimate adds the correction, the effect of a relative change of 2^-90 of
+/// the speed, and half an ulp. Accuracy measured for random rigs (tests/cpp/forced_motion.cpp):
+/// 1e-12 of the largest offset, and at most ten times `error_estimate`. Cost: 2 microseconds for
+/// each link and speed.
 /// Throws InvalidArgument unless one of radius, acceleration and force is given or the rig's own
-/// support has a radius, all are finite, speeds are not 0 and positive without momentum; for a force
-/// on a firm support, and for dashpots in a fluid that turns.
+/// support has a radius, all are finite, gravity is positive, speeds are not 0 and positive without
+/// momentum; for a force on a firm support, and for dashpots in a fluid that turns.
 REVCHAIN_DECLARE
 [[nodiscard]] ForcedMotion forced_motion(const Rig& rig, const ForcedMotionOptions& options);
 

@@ -47,8 +47,8 @@ struct HeldBy {
 
 /// A `Chain<double>` or a `Cord` held at both ends, checked once by its constructor. By default the
 /// ends are firm points on the axis. `lower` and `upper` put an end of a chain on a spring, equally
-/// stiff in all directions across the axis, or carry it round the axis at a radius. All lie in one
-/// plane.
+/// stiff in all directions across the axis, or carry it round the axis at a radius. Both ends lie
+/// in one plane with the axis. `Support::damping` is not read.
 ///
 /// Throws InvalidArgument unless exactly one of span and tension is given, positive and finite, for
 /// a span not less than the length, and for firm ends as far apart as the length. Also throws for
@@ -107,7 +107,7 @@ struct HeldCordShapesOptions {
 /// For each number of half waves the first shape is reached by continuation from the nearly
 /// straight chain without gravity. The ends approach, then move to their radii and springs, then
 /// gravity grows. At a given tension it is followed by all other shapes on that branch with this
-/// tension at the upper end. For a chain all other shapes found come last.
+/// tension at the upper end. Other shapes of a chain come last among those with as many half waves.
 ///
 /// `missing` lists the numbers of half waves without a shape. `complete` is true if it is proved
 /// that there is no other shape with 1 to `max_half_waves` half waves. For a cord this is possible
@@ -174,9 +174,10 @@ struct HeldModesOptions {
 /// their neighbours (docs/accuracy.md). A tension or stiffness whose second word is not 0 is taken
 /// as a quotient that was rounded once; otherwise numbers are exact. Cost: 0.7 microseconds a link
 /// and mode, also with shapes.
-/// Throws InvalidArgument for a span (use `stability`) and for a tension that does not exceed the
-/// weight (the chain would not be straight) or is out of range. Also throws for wrong numbers and
-/// windows as `modes` of a chain, and if rounding leaves the number of modes in a window in doubt.
+/// Throws InvalidArgument for a span (see `steady_shapes`, `stability`) and for a tension that does
+/// not exceed the weight (the chain would not be straight) or is out of range. Also throws for
+/// wrong numbers and windows as `modes` of a chain, and if rounding leaves the number of modes in a
+/// window in doubt.
 REVCHAIN_DECLARE
 [[nodiscard]] Modes<double> modes(const Held<Chain<double>>& held,
                                   const HeldModesOptions& options = {});
@@ -201,7 +202,7 @@ struct HeldDiagramOptions {
 /// It ends where a link becomes slack or turns over (`slack`), the cord hangs folded along the axis
 /// (`folded`), the greatest speed is reached again (`speed`), the conical height is 10,000 lengths
 /// (`rest`: off the axis), or 3000 steps are done (`budget`). `HeldBranch::mode` numbers the
-/// branches. Between ends off the axis each number k has two branches: mode 2 k - 1, whose lowest
+/// branches. If an end is off the axis each number k has two branches: mode 2 k - 1, whose lowest
 /// link first leads outwards, and mode 2 k, whose lowest link first leads inwards. A branch that
 /// returns to the greatest speed where another would begin stands for both.
 ///
@@ -231,11 +232,11 @@ struct HeldOnBranchOptions {
     double gravity = conical_pendulum::standard_gravity;
 };
 
-/// A shape on the branch `mode` of a chain or cord held at a span. At a given speed it is the first
-/// shape that `steady_shapes` lists. With a given tension at the upper end it is the fastest one,
-/// with the speed `angular_speed()`. Accuracy: inclinations as `steady_shapes`; the height for a
-/// tension to 1e-14. Throws InvalidArgument as `branches`, for a mode below 1, for a tension
-/// between springs, and if the branch does not reach the number.
+/// A shape on the branch `mode` of a chain or cord held at a span. At a given speed, on the axis,
+/// it is the first shape with `mode` half waves that `steady_shapes` lists. With a given tension at
+/// the upper end it is the fastest one, with the speed `angular_speed()`. Accuracy: inclinations as
+/// `steady_shapes`; the height for a tension to 1e-14. Throws InvalidArgument as `branches`, for a
+/// mode below 1, for a tension between springs, and if the branch does not reach the number.
 REVCHAIN_DECLARE
 [[nodiscard]] HeldShape steady_shape(const Held<Chain<double>>& held,
                                      const HeldOnBranchOptions& options);

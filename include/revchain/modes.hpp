@@ -14,7 +14,7 @@
 #include "revchain/numeric/progress.hpp"
 #include "revchain/numeric/status.hpp"
 
-/// Whirl modes of small amplitude: speeds, shapes and nodes, each speed with a proved bound.
+/// Whirl modes of small amplitude: speeds with error bounds, shapes and nodes.
 ///
 ///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5),  // the lowest link first
 ///                                          revchain::uniform_rod(2.0, 0.3)});
@@ -53,7 +53,7 @@ struct ModesOptions {
     ModesMethod method = ModesMethod::automatic;
 };
 
-/// Intervals lower < exact conical height <= upper of every mode, and the counts that prove them.
+/// Intervals lower < exact conical height <= upper of the modes found, and counts that prove them.
 /// For mode k, `above_lower` >= k of the exact heights exceed `lower` and `above_upper` < k exceed
 /// `upper`; `count_modes` returns the same numbers. An end is 0 or infinite if no count was proved.
 template <Real T>
@@ -65,7 +65,7 @@ struct Certificate {
 };
 
 /// Whirl modes of a chain, slowest first. Mode k is at index k - first. In an empty window, `first`
-/// is the next faster mode.
+/// is the number of the next faster mode.
 template <Real T>
 struct Modes {
     Index first = 1;               ///< number of the slowest mode here
@@ -83,7 +83,7 @@ struct Modes {
     const Table<T>& shapes(Progress* progress = nullptr) const {
         return lazy_shapes_.offsets(size(), progress);
     }
-    /// (k,) largest unbalanced force at a pin over the largest sum of forces at a pin
+    /// (k,) largest unbalanced force at a pin over the largest sum of magnitudes at a pin
     const Vector<T>& residual() const { return details().residual; }
     /// k lists: distances from the free end at which the mode crosses the axis
     const std::vector<Vector<T>>& nodes() const { return details().nodes; }
@@ -119,20 +119,21 @@ struct Modes {
 /// Method: bisection. Modes are counted in T at eight trial heights in one pass. A twisted
 /// factorization gives a shape and its Rayleigh quotient in `Wide<T>`; the residual or two counts
 /// prove the bound. A chain of floats is solved in double. methods.hpp adds methods that are faster
-/// for long chains, many modes and loose tolerances, with the same bounds. In a program that links
-/// `revchain::compiled` they are included here. `Modes::method` names the method used. Windows are
-/// decided by proved counts (`ModeCounter::within`), not by rounded heights. Accuracy without
-/// `rtol`: conical heights within 0.501 ulp of the exact ones of the stored numbers (measured, N up
-/// to 1e5, ten kinds of chain: tests/cpp/modes.cpp); the bound is at most 2 ulp, proved. With
-/// `rtol`: it is at most `rtol`, proved, unless the status says otherwise. Shapes are within
-/// 5.6e-17 of the largest offset (3.5e-16 / gap if weights need several units; rtol / gap with a looser `rtol`),
-/// where gap, at most 1, is the relative distance to the next height. If `Wide<T>` is T itself
-/// (DoubleDouble, a scalar of your own), errors and bounds grow with N. Results are bitwise the
-/// same for any number of threads. Cost in double: 20 ns per link and mode, 30 ns with shapes; 500
-/// ns for weights that need several units. Memory O(N k) with shapes.
-/// Throws InvalidArgument for mode numbers outside 1 ... `chain.mode_count()`, a window with low >=
-/// high, numbers together with a window, a tolerance that is negative or NaN, and a method that
-/// needs methods.hpp. A tolerance out of reach gives `Status::tolerance_not_met` and the bounds
+/// for long chains, many modes and loose tolerances; it says which bounds are proved. In a program
+/// that links `revchain::compiled` they are included here. `Modes::method` names the one used.
+/// Windows are decided by proved counts (`ModeCounter::within`), not by rounded heights. Accuracy
+/// without `rtol`: conical heights within 0.501 ulp of the exact ones of the stored numbers
+/// (measured, N up to 1e5, ten kinds of chain: tests/cpp/modes.cpp); the bound is at most 2 ulp,
+/// proved. With `rtol`: it is at most `rtol` unless the status says otherwise. Shapes are
+/// within 5.6e-17 of the largest offset (3.5e-16 / gap if weights need several units; rtol / gap
+/// with a looser `rtol`), where gap, at most 1, is the relative distance to the next height. If
+/// `Wide<T>` is T itself (DoubleDouble, a scalar of your own), errors and bounds grow with N.
+/// Results are bitwise the same for any number of threads. Cost in double: 20 ns per link and mode,
+/// 30 ns with shapes; 500 ns for weights that need several units. Memory O(N k) with shapes.
+/// Throws InvalidArgument for mode numbers outside 1 ... `chain.mode_count()`, a window unless 0 <=
+/// low < high, numbers together with a window, a tolerance that is negative or NaN, gravity not
+/// positive with a window of speeds, negative `threads`, a method that needs methods.hpp, and as
+/// `ModeCounter`. A tolerance out of reach gives `Status::tolerance_not_met` and the bounds
 /// reached.
 template <Real T>
 [[nodiscard]] Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options = {});

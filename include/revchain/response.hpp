@@ -36,7 +36,8 @@ struct ResponseOptions {
 /// numbers are amplitudes: multiply offsets and forces by cos(n t).
 struct Response {
     std::vector<Index> pins;
-    Table<double> offset;  ///< (speeds, pins) positive on the side of the support; NaN at resonance
+    /// (speeds, pins) positive on the side of the support; at resonance NaN, but not of the support
+    Table<double> offset;
     Vector<double> error_bound;    ///< of every offset, over the largest; infinite at resonance
     Vector<Index> modes_below;     ///< slower modes, proved; without a resonant one
     std::vector<char> reversed;    ///< whether the free end is opposite to the support
@@ -54,19 +55,20 @@ struct Response {
 /// from the support down. Speeds in doubt, next to a resonance or where a pin is nearly a node, are
 /// computed again in interval arithmetic. Accuracy: half an ulp of each offset, up to about 1e-12
 /// from a resonance; `error_bound` and `modes_below` are proved for every chain. Below all
-/// resonances the chain is on the side of its support; each resonance reverses it. Results are
-/// bitwise the same for any number of threads. Cost: 20 ns for each link and speed. Memory: the
-/// result, which `pins` reduces.
+/// resonances the chain is on the side of its support; each resonance reverses the free end.
+/// Results are bitwise the same for any number of threads. Cost: 20 ns for each link and speed.
+/// Memory: the result, which `pins` reduces.
 /// Throws InvalidArgument if both heights and speeds are given, unless heights, radius and gravity
-/// are positive and finite, and for pins that do not exist. Speeds must be finite and not 0, and
-/// positive without a flywheel. Heights (given or g/n^2) must be between 2^-250 and 2^250 times the
-/// longest link's length (rounded up to a power of 2).
+/// are positive and finite, for negative `threads`, and for pins that do not exist. Speeds must be
+/// finite and not 0, and positive without a flywheel. Heights (given or g/n^2) must be between
+/// 2^-250 and 2^250 times the longest link's length (rounded up to a power of 2).
 REVCHAIN_DECLARE
 [[nodiscard]] Response response(const Chain<double>& chain, const ResponseOptions& options);
 
 /// Returns the response of a rig. `support_radius` replaces the radius of the rig's own support. If
 /// that is a spring, its rest position is carried round. Lowest links that weigh nothing in a fluid
-/// that turns hang straight down from the next pin.
+/// that turns hang straight down from the next pin. Also throws InvalidArgument for springs at
+/// pins, dashpots, linear drag and a trolley that rolls freely (use `forced_motion`).
 REVCHAIN_DECLARE
 [[nodiscard]] Response response(const Rig& rig, const ResponseOptions& options);
 

@@ -13,7 +13,8 @@
 #include "revchain/numeric/status.hpp"
 #include "revchain/system/link.hpp"
 
-/// A chain and its rigging: a yielding or carried support, flywheels, a fluid, standing links.
+/// A chain and its rigging: a yielding or carried support, flywheels, a fluid, standing links,
+/// springs and dashpots at pins, linear drag.
 ///
 ///     const revchain::Chain<double> chain({revchain::plummet(80.0, 0.5), revchain::plummet(20.0, 4.0)});
 ///     const revchain::Rig carousel(chain, {.support = {.radius = 4.0}});             // m
@@ -41,8 +42,8 @@ struct Support {
 };
 
 /// A pin that slides sideways on a spring of stiffness E, Greenhill (1908) §2 (7). For small
-/// amplitudes it acts as a thread of length W/E, where W is the weight of the chain. Throws
-/// InvalidArgument unless stiffness > 0 and carriage weight >= 0, both finite.
+/// amplitudes and without carriage it acts as a thread of length W/E, W the weight of the chain.
+/// Throws InvalidArgument unless stiffness > 0 and carriage weight >= 0, both finite.
 [[nodiscard]] inline Support horizontal_spring(const Wide<double>& stiffness,
                                                double carriage_weight = 0) {
     detail::require_positive("horizontal_spring", "stiffness", stiffness.high);
@@ -133,9 +134,10 @@ struct Rigging {
 /// A chain and its rigging. For a chain without rigging, `Chain` costs less.
 ///
 /// Throws InvalidArgument, naming the link, for lists that are neither empty nor as long as the
-/// chain, numbers that are not finite, a carriage or a dashpot at a firm support, a radius of a
-/// free trolley, and a negative stiffness, damping, carriage weight, radius, axial moment, weight
-/// displaced or added. Cost O(N) once.
+/// chain, numbers that are not finite, a carriage or a dashpot at a firm support, a free trolley
+/// with a radius or in a fluid that turns, and a negative stiffness, damping, drag, carriage
+/// weight, radius, axial moment, weight displaced or added, or gyration ratio of a fluid. Cost O(N)
+/// once.
 class Rig {
    public:
     Rig(Chain<double> chain, Rigging with) : chain_(std::move(chain)), with_(std::move(with)) {
@@ -198,7 +200,7 @@ class Rig {
             [](const Flywheel& wheel) { return wheel.momentum != Wide<double>(0.0); });
     }
     /// Whether small motions are those of the chain alone: a firm support, no wheel, no fluid, no
-    /// spring or dashpot, and no link that stands. The support may be carried round.
+    /// spring, dashpot or drag, and no link that stands. The support may be carried round.
     bool is_plain_chain() const {
         if (has_pin_springs() || is_damped()) return false;
         for (Index m = 0; m < size(); ++m)

@@ -11,7 +11,8 @@
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/rig.hpp"
 
-/// Whirl modes of a rig (small amplitude): yielding supports, standing links, flywheels, a fluid.
+/// Whirl modes of a rig without dashpots (small amplitude): yielding supports, springs at pins,
+/// standing links, flywheels, a fluid.
 ///
 ///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
 ///     const revchain::Rig rig(chain, {.support = revchain::horizontal_spring(50.0)});
@@ -74,11 +75,10 @@ struct OtherMode {
     double error_bound = std::numeric_limits<double>::infinity();  ///< relative, proved
 };
 
-/// A link whose effective tension, tension + n momentum/length, is 0 at a speed and negative beyond
-/// it.
+/// A link whose effective tension, tension + n momentum/length, changes its sign at a speed.
 struct SlackLink {
     Index link = 0;            ///< from 0, lowest first
-    double angular_speed = 0;  ///< n, negative if opposite to a wheel of positive momentum
+    double angular_speed = 0;  ///< n, negative in the backward direction
 };
 
 /// The method that found the modes of a rig.
@@ -100,10 +100,10 @@ struct RigModes {
     Index rigid = 0;  ///< 1 if a free trolley can move as a whole, at speed 0; no mode of the lists
     Index other_available = 0;  ///< number of solutions that are not steady motions, listed or not
     std::vector<OtherMode> other;  ///< filled if `RigModesOptions::other` or `discs`
-    std::vector<SlackLink> slack;  ///< slowest first, up to the fastest mode in that direction
+    std::vector<SlackLink> slack;  ///< slowest first, up to the fastest mode listed there
     bool complete = false;         ///< whether the three numbers available are proved
     RigMethod method = RigMethod::counts;
-    Status status = Status::success;  ///< `tolerance_not_met`: a bound or `complete` is unproved
+    Status status = Status::success;  ///< see `modes`
 };
 
 /// Whirl speeds of small amplitude of a rig, Greenhill (1908) §8 (21) with supports, standing
@@ -114,15 +114,18 @@ struct RigModes {
 /// net tension) or M >= 0 (no fluid that turns). Counts number them (Sylvester): positive ones as
 /// modes, negative ones in `other`. With momentum: K + n G - (n^2/g) M. If K > 0 and M >= 0, each
 /// of its eigenvalues passes through 0 at most once on either side of n = 0, so counts number the
-/// speeds. There are 2N real ones if M > 0. Otherwise all heights or speeds are found at once
-/// (Ehrlich, Aberth) and proved in disjoint discs: at most 20,000 links and yielding supports.
+/// speeds. If M > 0 there are 2 real ones for each link and yielding support. Otherwise all heights
+/// or speeds are found at once (Ehrlich, Aberth) and proved in disjoint discs.
 /// Accuracy, measured (tests/cpp/rig_modes.cpp): heights without momentum, speeds with it, within
 /// 0.501 ulp of the exact ones of the stored numbers. Their bounds are at most 1 ulp by counts;
 /// shapes are as for chains. Cost: 50 ns per link and mode with shapes if all links hang in tension; O(N k) memory.
 /// Discs: O(N^2).
-/// Throws InvalidArgument for mode numbers below 1, gravity not positive, a window with low >=
-/// high, numbers together with a window, and too many links for discs. A bound that is not proved
-/// is infinite, and the status is then `tolerance_not_met`.
+/// Throws InvalidArgument for dashpots or linear drag (use `damped_modes`), mode numbers below 1,
+/// gravity not positive, a window unless 0 <= low < high, numbers together with a window, a
+/// negative `rtol` or `threads`, and numbers too far apart. Also throws for a rig that needs discs
+/// and has springs at pins or, with its yielding support, more than 20,000 links. A bound that is
+/// not proved is infinite. The status is `tolerance_not_met` if a bound is unproved or above
+/// `rtol`, or `complete` is false.
 REVCHAIN_DECLARE
 [[nodiscard]] RigModes modes(const Rig& rig, const RigModesOptions& options = {});
 
@@ -135,7 +138,7 @@ class RigRoots;
 /// all roots. Counts are proved and ties decided as by `ModeCounter`.
 class RigModeCounter {
    public:
-    /// Throws InvalidArgument as `modes` does.
+    /// Throws InvalidArgument for a rig or gravity that `modes` refuses.
     explicit RigModeCounter(const Rig& rig, double gravity = conical_pendulum::standard_gravity);
 
     /// The number of conical heights above `height`, with momentum in both directions together.
@@ -158,7 +161,7 @@ class RigModeCounter {
 ///
 ///     count_modes(rig, {.angular_speed = -5.0});  // backward modes between 0 and 5 rad/s
 ///
-/// Cost: O(N); by discs that of `modes`. Throws InvalidArgument unless exactly one of height and
+/// Cost: O(N); with discs O(N^2). Throws InvalidArgument unless exactly one of height and
 /// speed is given, and as `RigModeCounter`.
 REVCHAIN_DECLARE
 Index count_modes(const Rig& rig, const CountOptions<double>& options);

@@ -15,8 +15,8 @@
 ///     rope.at(0.5).offset;           // 0.766851 m, at 0.5 m from an end
 ///
 /// Greenhill (1908) §5. Units: any consistent set, angles in rad. lambda = g/n^2 is the conical
-/// height, and a tension is given as the length h of rope of this weight. Shapes depend on lambda h
-/// alone.
+/// height, and a tension is given as the length h of rope of this weight. Shapes depend on lambda
+/// and h by their product only.
 namespace revchain::inline REVCHAIN_BUILD::analytic {
 
 /// The data of a skipping rope. Give exactly two of: span, length, slack, sag, and the pair of

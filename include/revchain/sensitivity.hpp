@@ -59,12 +59,12 @@ struct Sensitivity {
 ///     (y^T dM y - lambda y^T dK y) / y^T K y.
 /// Each is formed from offset and slope of its link; the derivative for a weight also has the sum
 /// of a s^2 over the links above, which carry it. Laws: sum of W d/dW = 0; sum of a d/da + h d/dh +
-/// rho d/drho = lambda. A link's part of this sum, a times `length_in_proportion`, is its share of
-/// y^T K y, so a longer link, in proportion, never lowers a height. Accuracy: every entry is within
-/// its error bound, which is proved; measured 0.51 ulp of the entry, or 1e-28 of the largest entry
-/// if that is more (tests/cpp/sensitivity.cpp). The heights in `modes` need not be accurate. Cost:
-/// 1 microsecond a link and mode; O(N k) memory. Throws InvalidArgument if the chain's weights are
-/// more than 1e123 apart.
+/// rho d/drho = lambda. A link's part of this sum, a times `length_in_proportion`, is lambda times
+/// its share of y^T K y, so a longer link, in proportion, never lowers a height. Accuracy: every
+/// entry is within its error bound, which is proved; measured 0.51 ulp of the entry, or 1e-28 of
+/// the largest entry if that is more (tests/cpp/sensitivity.cpp). The heights in `modes` need not
+/// be accurate. Cost: 1 microsecond a link and mode; O(N k) memory. Throws InvalidArgument if the
+/// chain's weights are more than 1e123 apart.
 template <Real T>
 [[nodiscard]] Sensitivity<T> sensitivity(const Chain<T>& chain, const Modes<T>& modes);
 
@@ -86,7 +86,7 @@ template <Real T>
 struct Uncertainty {
     Vector<T> conical_height;  ///< (k,) standard deviations, in the unit of the heights
     Vector<T> relative;        ///< (k,) over the heights; half as much for speeds and periods
-    std::array<Table<T>, datum_names.size()> share;  ///< (k, N) of each variance; sum 1
+    std::array<Table<T>, datum_names.size()> share;  ///< (k, N) of each variance; sum 1, or 0
     std::vector<Datum> datum;                        ///< (k,) the datum that contributes most
     std::vector<Index> link;                         ///< (k,) the link of that datum, from 0
 };
@@ -125,7 +125,8 @@ struct RigSensitivity {
 /// is formed in double-double. Offsets with errors e of the largest give an error of about 4 e (|K|
 /// +
 /// |n G| + n^2 |M|/g) over the denominator. Cost O(N). Throws InvalidArgument for a speed that is 0
-/// or not finite, gravity not positive, offsets not N + 1.
+/// or not finite, gravity not positive, offsets not N + 1, not finite or all 0, and for springs at
+/// pins, dashpots and linear drag.
 REVCHAIN_DECLARE
 [[nodiscard]] RigSensitivity sensitivity(const Rig& rig, double angular_speed,
                                          const Vector<double>& offset,
@@ -135,16 +136,17 @@ REVCHAIN_DECLARE
 /// speed of some mode, all else constant. It is unique: momentum adds to the tension, and at that
 /// speed the parts below and above the link act as springs at its pins. Formed in double-double:
 /// the speed has a relative error of 1e-14 (tests/cpp/linear/rig_sensitivity.cpp). Cost O(N).
-/// Throws InvalidArgument for a speed that is 0 or not finite, gravity not positive, a link number
-/// out of range, and if no finite momentum has that effect.
+/// Throws InvalidArgument for a speed that is 0 or not finite, gravity not positive, springs at
+/// pins, dashpots, linear drag, a link number out of range, and if no finite momentum has that
+/// effect.
 REVCHAIN_DECLARE
 [[nodiscard]] double momentum_for_speed(const Rig& rig, Index link, double angular_speed,
                                         double gravity = conical_pendulum::standard_gravity);
 
 /// The stiffness of the support's spring with which `angular_speed` is a whirl speed of some mode,
 /// all else constant. At that speed the chain and the carriage act on the spring as one more
-/// spring. Accuracy and cost as `momentum_for_speed`. Throws InvalidArgument for a speed that is 0
-/// or not finite, gravity not positive, and if no positive finite stiffness has that effect.
+/// spring. Accuracy, cost and errors are those of `momentum_for_speed`. Also throws InvalidArgument
+/// if no positive finite stiffness has that effect.
 REVCHAIN_DECLARE
 [[nodiscard]] double stiffness_for_speed(const Rig& rig, double angular_speed,
                                          double gravity = conical_pendulum::standard_gravity);

@@ -46,8 +46,8 @@ struct GovernorPoint {
     double ball_radius = 0;
     double height = 0;    ///< of the cone: from the ball to where its arm meets the axis
     double lift = 0;      ///< of the sleeve, from inclination 0
-    bool stable = false;  ///< the speed rises with the inclination
-    double period = 0;    ///< of small oscillations; NaN if unstable
+    bool stable = false;  ///< shaft at constant speed: `speed` rises with the inclination
+    double period = 0;    ///< of small oscillations, also of a free shaft; NaN if there are none
 };
 
 /// How a governor answers a change of speed.
@@ -58,30 +58,30 @@ struct GovernorEffort {
 };
 
 /// A governor. With V the potential energy of balls, sleeve and spring, and J the moment of inertia
-/// of the balls, both functions of the inclination, the speed of equilibrium is n^2 = 2 V' / J'. It
-/// is stable if V'' > n^2 J''/2, and oscillates with the frequency sqrt((V'' - n^2 J''/2) / A),
-/// where A is twice the kinetic energy over the square of the arms' rate; n^2 J'^2 / (I + J) is
-/// added to the numerator if the shaft has the moment of inertia I and turns freely.
+/// of the balls, both functions of the inclination, the speed of equilibrium is n^2 = 2 V' / J'. At
+/// constant speed it is stable if V'' > n^2 J''/2, and oscillates with the frequency sqrt((V'' -
+/// n^2 J''/2) / A), where A is twice the kinetic energy over the square of the arms' rate; n^2 J'^2
+/// / (I + J) is added to the numerator if the shaft has the moment of inertia I and turns freely.
 ///
 /// Accuracy measured: squares of speeds 1e-12 (tests/cpp/sleeve_governor.cpp), periods 1e-14
 /// (tests/python/test_governor.py). Cost: 50 ns a point, 0.3 ms for all equilibria.
 class SleeveGovernor {
    public:
-    /// Throws InvalidArgument unless ball mass, arm and gravity are positive, other masses, lengths,
-    /// stiffness, friction and inertia not negative, all finite, the lower links long enough to reach
-    /// the sleeve at inclination 0, and not both lower links and sleeve arms are given.
+    /// Throws InvalidArgument unless ball mass, arm, gravity and `balls` are positive, sleeve mass,
+    /// other arms, `joint`, stiffness, friction and inertia not negative, and all but the inertia
+    /// finite. Also throws for lower links too short for the sleeve at inclination 0, lower links
+    /// together with sleeve arms, and sleeve mass, spring or friction without either.
     explicit SleeveGovernor(const GovernorData& data);
 
     const GovernorData& data() const noexcept { return data_; }
-    /// The point at an inclination. Throws InvalidArgument if the links cannot reach there.
+    /// The point at an inclination. Throws InvalidArgument if the arms or links cannot reach there.
     [[nodiscard]] GovernorPoint at(double inclination) const { return at(inclination, {}); }
     /// The speed of equilibrium, NaN or infinite if there is none.
     [[nodiscard]] double speed(double inclination) const { return at(inclination).speed; }
     /// All equilibria at a speed with the arms at most horizontal and the balls on their own side
     /// of the axis, by inclination; stops are ignored. Intervals prove that there are no others.
     /// `complete` is false if two lie too close together to be told apart, or if the force vanishes
-    /// almost everywhere. Throws InvalidArgument
-    /// unless speed >= 0 and finite.
+    /// almost everywhere. Throws InvalidArgument unless 0 <= speed <= 1e100.
     [[nodiscard]] std::vector<GovernorPoint> equilibria(double speed,
                                                         bool* complete = nullptr) const;
     /// The answer to a speed that rises by the fraction `change` from the equilibrium at an

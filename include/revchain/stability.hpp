@@ -35,7 +35,7 @@ enum class Verdict {
     spectrally_stable,  ///< no minimum, but gyroscopic forces keep it from growing, to first
                         ///< order; with dashpots: it decays
     unstable,           ///< it grows
-    undecided,          ///< unknown, because of the errors of the exponents
+    undecided,          ///< unknown: within the errors of the exponents, or in a fluid that turns
 };
 [[nodiscard]] inline std::string_view to_string(Verdict verdict) noexcept {
     constexpr std::string_view names[]{"minimum", "spectrally stable", "unstable", "undecided"};
@@ -51,7 +51,7 @@ struct Stability {
     std::vector<std::complex<double>> exponents;
     std::vector<double> exponent_error;  ///< of each, estimated with errors of shape and pulls
     double growth_rate = 0;  ///< largest real part of an exponent, at least 0; NaN if unknown
-    double margin = 0;       ///< the largest `exponent_error`
+    double margin = 0;       ///< the largest `exponent_error`; of a cord see cord.hpp
     /// negative eigenvalues of the energy's Hessian; if free, amended, without the rotation
     Index negative_directions = 0;
     /// The effect of a small damping c on each exponent, to first order: this number times g c is
@@ -83,8 +83,8 @@ struct Stability {
 /// the largest in the tests, on arms and springs 5e-9, because the shape is given in double
 /// (tests/python/test_light_links.py). Cost: O(N^3), 0.4 ms for 20 links and 2 ms for 40; less if
 /// every motion out of the plane has positive energy, much more with twice the digits.
-/// Throws InvalidArgument if numbers or lengths of links differ (weights are not compared); without
-/// `thorough` also if rounding leaves in doubt whether every motion moves mass.
+/// Throws InvalidArgument if numbers or lengths of links differ (weights are not compared), and if
+/// rounding leaves in doubt whether every motion moves mass (with `thorough` less often).
 REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Chain<double>& chain, const SteadyShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);
@@ -94,10 +94,10 @@ REVCHAIN_DECLARE
 
 /// Returns the stability of a shape with both ends held. Firm ends are fixed; ends on springs move
 /// across the axis. N links have 4 N - 8 exponents if free, 2 N - 4 if driven, with or without
-/// gravity; each end on a spring adds 4, or 2. Arms turn at constant speed: between ends off the
-/// axis no rotation is removed, which adds 2 exponents if free. Accuracy: simple exponents to 1e-13
-/// of the largest (tests/cpp/finite/stability/held.cpp). Cost: O(N^3). Throws InvalidArgument as
-/// above, and for a massless moving pin below the upper end.
+/// gravity; each end on a spring adds 4, or 2. Arms turn at constant speed: if an end is off
+/// the axis no rotation is removed, which adds 2 exponents if free. Accuracy: simple exponents to
+/// 1e-13 of the largest (tests/cpp/finite/stability/held.cpp). Cost: O(N^3). Throws InvalidArgument
+/// as above, and for a massless moving pin below the upper end.
 REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Chain<double>& chain, const HeldShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);
@@ -138,7 +138,9 @@ struct RigStabilityOptions {
 /// steady motion itself. A shape of which every disturbance decays, and that is no minimum, is
 /// `spectrally_stable`.
 /// Throws InvalidArgument as above, for a pin or a motion without mass (unless the fluid turns), a
-/// flywheel or dashpots at a massless upper end, springs at pins, and a dashpot at the support.
+/// flywheel or dashpots at a massless upper end, springs at pins, linear drag, a dashpot at the
+/// support and a trolley that rolls freely. Also throws in the free frame for dashpots together
+/// with a driven wheel if the support is on the axis.
 REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Rig& rig, const SteadyShape& shape,
                                   const RigStabilityOptions& options = {});

@@ -38,12 +38,14 @@ struct SteadyShape {
     double condition = 0;
     /// about the axis, weight times length squared (over g: a moment of inertia)
     double moment_of_inertia = 0;
-    /// U = -sum of weight times depth - moment_of_inertia/(2 lambda)
+    /// U = -sum of weight times depth - moment_of_inertia/(2 lambda); of a rig, with buoyancy, the
+    /// momenta of flywheels and the energy of the support's spring
     double effective_energy = 0;
 
     [[nodiscard]] double angular_speed(double gravity = conical_pendulum::standard_gravity) const {
         return conical_pendulum::angular_speed(conical_height, gravity);
     }
+    /// Without the constant momenta of flywheels.
     double angular_momentum(double gravity = conical_pendulum::standard_gravity) const {
         return moment_of_inertia / gravity * angular_speed(gravity);
     }
@@ -54,15 +56,15 @@ struct InclinationRange {
     double low, high;
 };
 
-/// Selects steady shapes of a chain or a rig. Give either `conical_height` or `angular_speed`.
+/// Selects steady shapes of a chain. Give either `conical_height` or `angular_speed`.
 struct SteadyShapesOptions {
     std::optional<double> conical_height{};
-    std::optional<double> angular_speed{};  ///< rad/s; of a rig, negative: backward
+    std::optional<double> angular_speed{};  ///< rad/s
     /// Limit of link evaluations. Each takes 0.5 microseconds for plummets, longer for other links
     /// and in double-double.
     long budget = 3'000'000;
-    bool hanging_only = true;  ///< only shapes with every link hanging, or in the rig's posture
-    double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`, for flywheels
+    bool hanging_only = true;  ///< only shapes with every link hanging
+    double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`
     Index threads = 1;                                    ///< 0: all processors
 };
 
@@ -119,8 +121,9 @@ struct SteadyShapes {
 /// and E = diag(+-1) the postures. Then E D s = G s gives, with w = D^1/2 s, |E w| = |D^-1/2 G
 /// D^-1/2 w| < |w|: only w = 0 is possible. An angular speed n gives the height g/n^2, formed in
 /// double-double.
-/// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, and
-/// for links that stand or may hang at several inclinations, unless `thorough` is given.
+/// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, for
+/// gravity not positive and weights more than 1e123 apart. Also throws for links that stand or may
+/// hang at several inclinations, unless `thorough` is given.
 REVCHAIN_DECLARE
 [[nodiscard]] SteadyShapes steady_shapes(const Chain<double>& chain,
                                          const SteadyShapesOptions& options);
@@ -142,8 +145,8 @@ REVCHAIN_DECLARE
 /// the total moving weight, to rounding. Pins may then be at any distance, and the search ends far
 /// beyond the chain's reach.
 /// Throws InvalidArgument as for chains, but a negative speed is the backward direction. Also
-/// throws for gravity not positive and finite, an effective tension that vanishes, and a lowest
-/// link whose moving weights balance about its pin.
+/// throws for springs at pins, linear drag, a dashpot at the support, an effective tension that
+/// vanishes, and a lowest link whose moving weights balance about its pin.
 REVCHAIN_DECLARE
 [[nodiscard]] SteadyShapes steady_shapes(const Rig& rig, const RigShapesOptions& options);
 REVCHAIN_DECLARE

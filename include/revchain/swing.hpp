@@ -59,7 +59,8 @@ struct Swing {
 /// rounding. Accuracy measured (tests/cpp/swing.cpp): 2e-16 of the sum of the modes' amplitudes.
 /// Cost: 0.5 microseconds for each link and mode, and 3 ns for each link, mode and time. Throws
 /// InvalidArgument for starts that are not finite or of another length, a support that moves, a
-/// count above the number of modes, gravity <= 0, times not finite, weights more than 1e123 apart.
+/// count below 0 or above the number of modes, gravity <= 0, times not finite, weights more than
+/// 1e123 apart.
 REVCHAIN_DECLARE
 [[nodiscard]] Swing swing(const Chain<double>& chain, const SwingOptions& options);
 
@@ -68,8 +69,9 @@ REVCHAIN_DECLARE
 /// velocity may be given, last in each start; a carriage without weight goes where the chain pulls
 /// it. Links do not turn about their own axes, so axial moments of wheels have no effect. Also
 /// throws InvalidArgument if a flywheel has momentum (use `whirl_swing`), for a support that is
-/// carried round (use `response`), and for a fluid that turns. It also throws if the straight rig
-/// is unstable or in neutral balance (the message says how fast it falls), and for lowest links
+/// carried round (use `response`), for a fluid that turns, and for springs at pins, dashpots,
+/// linear drag and a trolley that rolls freely (use `transient`). It also throws if the straight
+/// rig is unstable (the message says how fast it falls) or in neutral balance, and for lowest links
 /// without inertia.
 REVCHAIN_DECLARE
 [[nodiscard]] Swing swing(const Rig& rig, const SwingOptions& options);
@@ -108,8 +110,8 @@ struct WhirlSwing {
 /// keep standing links from falling, the bounds are infinite. Accuracy measured
 /// (tests/cpp/whirl_swing.cpp): 2e-16 of the sum of the amplitudes. Cost: 0.5 microseconds for each
 /// link and whirl, and 5 ns for each link, whirl and time.
-/// Throws InvalidArgument as `swing` of a rig does, if the straight rig is unstable (the message
-/// says how fast it falls), and for pins without inertia.
+/// Throws InvalidArgument as `swing` of a rig does, except for momentum. Also throws if no flywheel
+/// has momentum, and for pins without inertia.
 REVCHAIN_DECLARE
 [[nodiscard]] WhirlSwing whirl_swing(const Rig& rig, const WhirlSwingOptions& options);
 

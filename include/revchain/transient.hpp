@@ -9,8 +9,8 @@
 #include "revchain/numeric/progress.hpp"
 #include "revchain/rig.hpp"
 
-/// Motion of small amplitude in time of a rig of any kind, whose support is moved: a crane that
-/// brakes, a ship that rolls.
+/// Motion of small amplitude in time of a rig whose support may be moved: a crane that brakes, a
+/// ship that rolls.
 ///
 ///     using revchain::SupportMotion;
 ///     const revchain::Chain<double> chain({revchain::plummet(9.81, 2.0)});
@@ -46,7 +46,7 @@ struct TransientOptions {
     Progress* progress = nullptr;
 };
 
-/// Offsets from the axis, or with momentum x + i y. Otherwise imaginary parts are 0.
+/// Motion in time. Offsets from the axis are x + i y with momentum, else real.
 struct Transient {
     Table<std::complex<double>> offset;    ///< (times, N+1) free end first, support last
     Table<std::complex<double>> velocity;  ///< (times, N+1)
@@ -77,8 +77,8 @@ struct Transient {
 /// each link, motion and time.
 /// Throws InvalidArgument for starts not finite or of another length, a start of a support that is
 /// moved by hand, times that are negative or do not ascend, a motion with fewer than two times or
-/// that jumps in place or grows beyond all numbers, a force on a firm support, a fluid that turns,
-/// more than 1000 links.
+/// that jumps in place or grows beyond all numbers, a force on a firm support, a support that is
+/// carried round, a fluid that turns, more than 1000 links, and complex starts without momentum.
 REVCHAIN_DECLARE
 [[nodiscard]] Transient transient(const Rig& rig, const TransientOptions& options);
 

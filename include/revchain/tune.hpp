@@ -87,8 +87,9 @@ REVCHAIN_DECLARE
 [[nodiscard]] Tuned tune(const Chain<double>& chain, const TuneOptions& options);
 
 /// Deleted: the C++ library tunes only chains; the Python function `tune` tunes every system. For a
-/// rig use `momentum_for_speed` or `stiffness_for_speed` (sensitivity.hpp). Heights of a cord are
-/// proportional to its length. For a `Held` change its system, make a new `Held` and call `modes`.
+/// rig use `momentum_for_speed` or `stiffness_for_speed` (sensitivity.hpp). If a cord is
+/// stretched with all on it, its heights grow in proportion. For a `Held` change its system, make a
+/// new `Held` and call `modes`.
 Tuned tune(const Rig& rig, const TuneOptions& options) = delete;
 Tuned tune(const Cord& cord, const TuneOptions& options) = delete;
 template <class System>
