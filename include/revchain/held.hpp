@@ -48,13 +48,13 @@ struct HeldBy {
 /// A `Chain<double>` or a `Cord` held at both ends, checked once by its constructor. By default the
 /// ends are firm points on the axis. `lower` and `upper` put an end of a chain on a spring, equally
 /// stiff in all directions across the axis, or carry it round the axis at a radius. Both ends lie
-/// in one plane with the axis. `Support::damping` is not read.
+/// in one plane with the axis.
 ///
 /// Throws InvalidArgument unless exactly one of span and tension is given, positive and finite, for
 /// a span not less than the length, and for firm ends as far apart as the length. Also throws for
 /// numbers not finite, a stiffness not positive, a carriage weight that is negative or has no
-/// spring, a radius together with a tension, springs or radii for a cord, and a cord that is not
-/// uniform or has a tip weight.
+/// spring, a dashpot at an end, a radius together with a tension, springs or radii for a cord, and
+/// a cord that is not uniform or has a tip weight.
 template <class System>
 class Held {
     static_assert(std::is_same_v<System, Chain<double>> || std::is_same_v<System, Cord>);

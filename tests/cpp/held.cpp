@@ -434,6 +434,8 @@ TEST_CASE("held: what has no answer says what to ask instead") {
                       ContainsSubstring("upper radius must be 0") && ContainsSubstring("got 0.1"));
     CHECK_THROWS_WITH(Held(Cord(1), {.span = 0.5, .lower = {.stiffness = 5.0, .carriage_weight = 2.0}}),
                       ContainsSubstring("lower stiffness must be infinite") && ContainsSubstring("got 5"));
+    CHECK_THROWS_WITH(Held(rods, {.span = 0.5, .upper = {.stiffness = 100.0, .damping = 3.0}}),
+                      ContainsSubstring("upper damping must be 0") && ContainsSubstring("got 3"));
 
     const Held bent(rods, {.span = 0.5}), straight(rods, {.tension = 4.0});
     const Held light(rods, {.tension = 4.0, .weightless = true}), light_bent(rods, {.span = 0.5, .weightless = true});

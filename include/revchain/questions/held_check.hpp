@@ -49,6 +49,9 @@ void Held<System>::check_end(const std::string& name, const Support& end) const 
         detail::throw_invalid("Held", name + " stiffness must be positive", end.stiffness.high);
     detail::require_not_negative("Held", name + " carriage weight", end.carriage_weight);
     detail::require_finite("Held", name + " radius", end.radius);
+    if (!(end.damping == Wide<double>(0.0)))
+        detail::throw_invalid("Held", name + " damping must be 0: an end is firm or on a spring",
+                              end.damping.high);
     detail::require_spring_under_carriage("Held", name + " end", end);
     if (held_by_.tension && end.radius != 0)
         detail::throw_invalid("Held",
