@@ -78,8 +78,8 @@ def fit(
     ------
     ValueError
         If there are more data than speeds, an unknown path, two paths to the same number, a mode that does not exist, a
-        speed or uncertainty that is not positive, or a datum without a start value; if the system is held at a span and
-        so has no modes.
+        speed or uncertainty that is not positive, uncertainties of some speeds alone, or a datum without a start value;
+        if the system is held at a span, or its tension does not exceed its weight.
     TypeError
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
     ImportError
@@ -89,7 +89,8 @@ def fit(
     -----
     Method: trust-region least squares (`scipy.optimize.least_squares`) in the logarithms of the data, or in fractions of
     their size for momenta, spins and centroids, which may have either sign. Derivatives are those of `Modes.sensitivity`;
-    for cords, held systems, rigs with dashpots and masses of wheels they are differences of fourth order. The values
+    for cords, held systems, rigs with springs at pins, dashpots or linear drag, and for data without a derivative there
+    they are differences of fourth order. The values
     are within a millionth of their standard uncertainties of a local minimum of the sum of squares. It is not proved
     that there is no lower minimum far from the start. Uncertainties are to first order: they assume that speeds are
     linear in the data.
