@@ -172,13 +172,15 @@ class SleeveGovernor(Solved, row="point"):
     _optional = _STOPS
     lowest_speed: Field[float] = Field("Speed of equilibrium at the lower stop, rad/s; NaN without stops.", _speed("lowest_speed"))
     highest_speed: Field[float] = Field("Speed of equilibrium at the upper stop, rad/s; NaN without stops.", _speed("highest_speed"))
-    lift: Field[float] = Field("Lift of the sleeve between the stops, m.", _speed("lift"))
+    lift: Field[float] = Field("Lift of the sleeve between the stops, m; NaN without stops.", _speed("lift"))
     sensitiveness: Field[float] = Field(
-        "Difference of the speeds at the stops over their mean: small in a sensitive governor, 0 in an isochronous one.",
+        "Difference of the speeds at the stops over their mean: small in a sensitive governor, 0 in an isochronous one; NaN "
+        "without stops.",
         lambda g: 2 * (g.highest_speed - g.lowest_speed) / (g.highest_speed + g.lowest_speed),
     )
     insensitiveness: Field[float] = Field(
-        "Width of the band of speeds in which friction holds the sleeve, over the mean speed, at the middle between the stops.",
+        "Width of the band of speeds in which friction holds the sleeve, over the speed of equilibrium, at the middle between the "
+        "stops; NaN without stops.",
         _speed("insensitiveness"),
     )
 

@@ -179,11 +179,10 @@ class RopePoints(NamedTuple):
 class TortuousPoints(NamedTuple):
     """Points of a tortuous rope.
 
-    `x`, `arc`: distances along the axis and along the rope from the point nearest to the axis. `radius`: distance
-    from the axis. `angle`: angle round the axis; for the plane rope 0 at ``x = 0``, pi/2 up to the next crossing of the axis, and pi more
-    after each.
-    `radius_slope`, `angle_slope`: ``d radius / dx``, ``d angle / dx``. `tension_ratio`: tension divided by its
-    component along the axis.
+    `x`, `arc`: distances along the axis and along the rope from the point nearest to the axis. `radius`: distance from
+    the axis. `angle`: angle round the axis; for the plane rope 0 at ``x = 0``, pi/2 up to the next crossing of the
+    axis, and pi more after each. `radius_slope`, `angle_slope`: ``d radius / dx``, ``d angle / dx``. `tension_ratio`:
+    tension divided by its component along the axis.
     """
 
     x: FloatOrArray

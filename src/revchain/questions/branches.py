@@ -176,7 +176,8 @@ def branches(
 
         With ``hanging_only=False`` the branches of the system's own posture come first, then those of each other posture.
         `Branch.system` is the `Rig` with the links of the posture inverted, and ``mode`` counts its modes. ``complete`` is
-        then false, except for a chain of one link: the proof that no loop is missing between two speeds is for links that hang.
+        then false, except for a chain of one link: the proof that no loop is missing between two speeds is for links
+        that hang.
 
     Raises
     ------

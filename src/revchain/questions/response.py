@@ -90,8 +90,8 @@ def response(
     -----
     The offsets solve ``K y = M y / conical_height`` for the given offset of the support. The theory is linear: offsets
     must be small compared with the links; scale them with the radius. Below the first whirl speed a chain moves in
-    phase with its support. Without damping the offsets grow without limit towards a whirl speed and change sign there. Lowest links without net weight in a fluid that turns with them stay in line with the
-    link above.
+    phase with its support. Without damping the offsets grow without limit towards a whirl speed and change sign there.
+    Lowest links without net weight in a fluid that turns with them stay in line with the link above.
 
     Dashpots at pins act on rates of angles between links that do not turn about their own axes, as in motion to and fro;
     that of the support on its velocity over the ground.

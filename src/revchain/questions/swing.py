@@ -90,13 +90,13 @@ def swing(
     TypeError
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`, or `support` is not a `SupportMotion`.
     ValueError
-        If `system` is a `Held`, or a `Cord` with a bob or whose support is moved; if a number is not finite, a start has another length
-        or moves a firm support, `count` exceeds the number of modes, or weights differ by a factor of 2e123 or more; if
-        a function jumps, or `arc_length` comes with a chain or a rig. For a rig: if its straight position is unstable (the
-        message gives the growth rate), if its support is carried round (use `response`), if the fluid turns, if it has
-        momentum and pins without inertia, or if a start is complex without momentum. With damping, springs at pins, a
-        trolley or a moving support: if a time is negative, `count` is given, a force acts on a firm support, the motion
-        exceeds the largest double, or there are more than 1000 links.
+        If `system` is a `Held`, or a `Cord` with a bob or whose support is moved; if a number is not finite, a start
+        has another length or moves a firm support, `count` exceeds the number of modes, or weights differ by a factor
+        of 2e123 or more; if a function jumps, or `arc_length` comes with a chain or a rig. For a rig: if its straight
+        position is unstable (the message gives the growth rate), if its support is carried round (use `response`), if
+        the fluid turns, if it has momentum and pins without inertia, or if a start is complex without momentum. With
+        damping, springs at pins, a trolley or a moving support: if a time is negative, `count` is given, a force acts
+        on a firm support, the motion exceeds the largest double, or there are more than 1000 links.
 
     Notes
     -----

@@ -107,8 +107,8 @@ def tune(
 
     The speeds of a chain, a cord and a held system given by weight rise with the root of gravity, which gives one value.
 
-    A rig has at most one stiffness, one momentum and one spin of a link for each speed, computed in double-double to 1e-15; the
-    modes of the new rig give the number of the mode.
+    A rig has at most one stiffness, one momentum and one spin of a link for each speed, computed in double-double to
+    1e-15; the modes of the new rig give the number of the mode.
 
     All other data of rigs, cords and held systems are searched: the speed is computed at 65 values and at extrema
     between them, and each pair of neighbours that encloses the wanted speed is bisected. The error bound is that of two

@@ -65,10 +65,11 @@ class Cord(System):
     Raises
     ------
     ValueError
-        If a number is out of its range, masses are mixed with weights, a mass or break does not lie between the ends, breaks
-        are given without a function, a radius of gyration without a centroid, a centroid without a tip, a bob is longer than 1e5 cords, or a
-        density function is not positive inside the cord, has too many jumps and corners, or has an integral that cannot
-        be resolved to 1e-6. The last two messages name the place; use a `Chain` of many short links for such a cord.
+        If a number is out of its range, masses are mixed with weights, a mass or break does not lie between the ends,
+        breaks are given without a function, a radius of gyration without a centroid, a centroid without a tip, a bob is
+        longer than 1e5 cords, or a density function is not positive inside the cord, has too many jumps and corners, or
+        has an integral that cannot be resolved to 1e-6. The last two messages name the place; use a `Chain` of many
+        short links for such a cord.
 
     Notes
     -----
