@@ -107,13 +107,13 @@ def modes(
 
     Notes
     -----
-    Proved counts of the exact heights decide which modes lie in a window: adjacent windows share no mode and miss none.
-    A height just above `low` may be rounded to it.
+    For chains, held chains and rigs without damping, proved counts of the exact heights decide which modes lie in a
+    window: adjacent windows share no mode and miss none. A height just above `low` may be rounded to it.
 
-    Accuracy: ``error_bound`` is the relative error bound (2 ulp by default, for a held chain 1 ulp, proved by counts).
-    Cost: bisection takes O(N) for each halving, about 50 halvings for each mode; shapes take O(N) time and
-    memory for each mode, when they are read. Other Python threads can run meanwhile. For a rig whose speeds may be complex
-    all speeds are found, in about 1 microsecond times the square of the number of links.
+    Accuracy: ``error_bound`` is the relative error bound (by default 2 ulp for a chain and 1 ulp for a held chain,
+    proved by counts). Cost: bisection takes O(N) for each halving, about 50 halvings for each mode; shapes take O(N)
+    time and memory for each mode, when they are read. Other Python threads can run meanwhile. For a rig whose speeds
+    may be complex all speeds are found, in about 1 microsecond times the square of the number of links.
 
     References
     ----------

@@ -78,8 +78,8 @@ def tune(
         Acceleration of gravity, m/s^2; standard gravity if left out.
     between : (low, high), optional
         Range of the search, if one is needed. If left out: from a thousandth to a thousand times the present value (that of
-        the whole chain for a massless link); for a tension, of what exceeds the weight; for a centroid or a radius of
-        gyration from 0 to the length of the link or the present value; for a span from 0 to the length.
+        the whole chain for a massless link); for a centroid or a radius of gyration from 0 to the length of the link or
+        the present value. For a tension this is said of its excess over the weight; a span is searched up to the length.
 
     Returns
     -------

@@ -313,7 +313,7 @@ class AskResponse(Table, frozen=True):
 
 
 class AskSwing(Table, frozen=True):
-    """Small oscillations of a chain, rig or cord after release, or while the support is moved (`revchain.swing`)."""
+    """Small oscillations of a chain or rig after release, or while its support is moved (`revchain.swing`)."""
 
     offset: Annotated[
         Listed | UnsetType,
@@ -325,7 +325,7 @@ class AskSwing(Table, frozen=True):
     time: Annotated[OneOrMore, says("A time (s), a list of times, or {from, to, steps}.")] = Spread(
         last=10.0, steps=201
     )
-    count: Annotated[Count | UnsetType, says("Number of modes used, slowest first; all if left out, of a cord 40.")] = UNSET
+    count: Annotated[Count | UnsetType, says("Number of modes used, slowest first; all if left out.")] = UNSET
     support_time: Annotated[
         Listed | UnsetType, says("Times (s) at which the support has the next velocities, accelerations, offsets or forces.")
     ] = UNSET
