@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Motions that a constructor computes from numbers: carriages at a buffer stop, a governor, ropes that whirl.
 
-Angles are in radians. The tension of a rope is given as the length of rope of equal weight, and its lengths are in any
-one unit. Source: Greenhill (1908): carriages section 2, ropes section 5, the governor section 7.
+Angles are in radians. The tension of a rope is given as the length of rope of equal weight, and its lengths are in the
+unit of length of `gravity`. Source: Greenhill (1908): carriages section 2, ropes section 5, the governor section 7.
 """
 
 from __future__ import annotations

@@ -61,8 +61,8 @@ def fit(
         was measured: where a period is given, of the period.
     vary : str, list of str or dict
         Paths of the data that may change, as in `tune`, such as ``"links[load].mass"``; ``"gravity"`` is one of them. A
-        dictionary also gives a start value, which is needed if the support is firm or a mass is 0:
-        ``{"support.stiffness": 2000.0}``.
+        dictionary also gives a start value, which is needed if the present value is infinite or at its lower limit, as the
+        stiffness of a firm support or a mass of 0: ``{"support.stiffness": 2000.0}``.
     gravity : float, optional
         Acceleration of gravity, m/s^2; standard gravity if left out. The start value if it varies.
 
@@ -87,8 +87,8 @@ def fit(
 
     Notes
     -----
-    Method: trust-region least squares (`scipy.optimize.least_squares`) in the logarithms of the data, or in fractions of
-    their size for momenta, spins and centroids, which may have either sign. Derivatives are those of `Modes.sensitivity`;
+    Method: trust-region least squares (`scipy.optimize.least_squares`) in the logarithms of the data, counted from
+    their lower limits, or in fractions of a typical size for momenta, spins and centroids, which may have either sign. Derivatives are those of `Modes.sensitivity`;
     for cords, held systems, rigs with springs at pins, dashpots or linear drag, and for data without a derivative there
     they are differences of fourth order. The values
     are within a millionth of their standard uncertainties of a local minimum of the sum of squares. It is not proved

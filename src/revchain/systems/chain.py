@@ -35,8 +35,8 @@ class Chain(System):
     mass : array_like, shape (N,) or scalar
         Mass of each link, kg, not negative. A link of mass 0 is a massless thread; the lowest link must have mass.
     weight : array_like, shape (N,) or scalar
-        Weight of each link, instead of `mass`. Any unit will do, because speeds depend only on the ratios. Forces in
-        results are in this unit; with `mass` they are in newtons.
+        Weight of each link, instead of `mass`. For a chain alone any unit will do, because its speeds depend only on the
+        ratios. Forces in results are in this unit; with `mass` they are in newtons.
     length : array_like, shape (N,) or scalar
         Distance between the pins of each link, m, positive.
     centroid : array_like, shape (N,) or scalar, optional

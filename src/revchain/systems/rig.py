@@ -375,7 +375,7 @@ class Displaced(_Fitting):
 
     Notes
     -----
-    Fluid of mass 0 has no effect; `sensitivity` by its mass is that of fluid at the position given.
+    Fluid of mass 0 without added mass has no effect; `sensitivity` by its mass is that of fluid at the position given.
     Cost: O(N), when the rig is made. Source: Greenhill (1908), section 2 (6), for Stokes's float.
 
     Examples
