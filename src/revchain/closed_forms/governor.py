@@ -155,8 +155,8 @@ class SleeveGovernor(Solved, row="point"):
     shaft_inertia: Moment of inertia of a shaft that turns freely, kg m^2; infinite: its speed is held
     lowest_inclination: Inclination at the lower stop, rad, or a text such as "25 deg"
     highest_inclination: Inclination at the upper stop
-    raises: If a number is out of its range or, but for `shaft_inertia`, not finite; if lower links do not reach the sleeve, a sleeve or spring has
-        nothing to be carried by, or only one stop is given.
+    raises: If a number is out of its range or, but for `shaft_inertia`, not finite; if lower links do not reach the
+        sleeve, a sleeve or spring has nothing to be carried by, or only one stop is given.
     notes: The speeds follow from the energies: n^2 = 2 V'/J'. Accuracy, measured against the forces in the links on 10,000
         random governors: 1e-12 of the square of the speed.
 
@@ -179,8 +179,8 @@ class SleeveGovernor(Solved, row="point"):
         lambda g: 2 * (g.highest_speed - g.lowest_speed) / (g.highest_speed + g.lowest_speed),
     )
     insensitiveness: Field[float] = Field(
-        "Width of the band of speeds in which friction holds the sleeve, over the speed of equilibrium, at the middle between the "
-        "stops; NaN without stops.",
+        "Width of the band of speeds in which friction holds the sleeve, over the speed of equilibrium, at the middle "
+        "between the stops; NaN without stops.",
         _speed("insensitiveness"),
     )
 

@@ -88,12 +88,12 @@ def fit(
     Notes
     -----
     Method: trust-region least squares (`scipy.optimize.least_squares`) in the logarithms of the data, counted from
-    their lower limits, or in fractions of a typical size for momenta, spins and centroids, which may have either sign. Derivatives are those of `Modes.sensitivity`;
-    for cords, held systems, rigs with springs at pins, dashpots or linear drag, and for data without a derivative there
-    they are differences of fourth order. The values
-    are within a millionth of their standard uncertainties of a local minimum of the sum of squares. It is not proved
-    that there is no lower minimum far from the start. Uncertainties are to first order: they assume that speeds are
-    linear in the data.
+    their lower limits, or in fractions of a typical size for momenta, spins and centroids, which may have either sign.
+    Derivatives are those of `Modes.sensitivity`; for cords, held systems, rigs with springs at pins, dashpots or linear
+    drag, and for data without a derivative there they are differences of fourth order. The values are within a
+    millionth of their standard uncertainties of a local minimum of the sum of squares. It is not proved that there is
+    no lower minimum far from the start. Uncertainties are to first order: they assume that speeds are linear in the
+    data.
 
     Which measurement disagrees: the leverage of a measurement is its element h on the diagonal of the hat matrix, the part
     of a change of the measured value by which the computed one follows. Its residual has the standard deviation

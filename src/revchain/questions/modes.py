@@ -107,8 +107,8 @@ def modes(
 
     Notes
     -----
-    For chains, held chains and rigs without damping, proved counts of the exact heights decide which modes lie in a
-    window: adjacent windows share no mode and miss none. A height just above `low` may be rounded to it.
+    For chains, held chains and rigs whose speeds cannot be complex, proved counts of the exact heights decide which
+    modes lie in a window: adjacent windows share no mode and miss none. A height just above `low` may be rounded to it.
 
     Accuracy: ``error_bound`` is the relative error bound (by default 2 ulp for a chain and 1 ulp for a held chain,
     proved by counts). Cost: bisection takes O(N) for each halving, about 50 halvings for each mode; shapes take O(N)

@@ -288,7 +288,9 @@ class AskShapes(Table, frozen=True):
 
     angular_speed: Annotated[MaybePositive, says("Speed (rad/s); or give conical_height.")] = UNSET
     conical_height: Annotated[MaybePositive, says("Conical height g / n^2 (m); or give angular_speed.")] = UNSET
-    hanging_only: Annotated[bool, says("Whether to leave out shapes with links above their pins (of a rig: inverted otherwise than in the scene).")] = True
+    hanging_only: Annotated[
+        bool, says("Leave out shapes with links above their pins (of a rig: inverted otherwise than in the scene).")
+    ] = True
     direction: Annotated[Literal[1, -1], says("Direction of rotation; only flywheels depend on it.")] = 1
     max_half_waves: Annotated[
         Count | UnsetType, says("Largest number of half waves between two held ends; 1 if left out.")

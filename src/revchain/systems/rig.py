@@ -211,9 +211,9 @@ class Pin(_Fitting):
         Torque over the angle between the links, N m/rad; the straight chain is relaxed. For a chain given by weight in the
         unit of its weights times m.
     damping : array_like
-        Torque over the rate of that angle, N m s/rad or that unit times s, of links that do not turn about their own
-        axes. About steady shapes (`SteadyShape.stability`) links also turn about their own axes, so that the least
-        energy is lost.
+        Torque over the rate of that angle, N m s/rad (for a chain given by weight in the unit of its weights times m
+        s), of links that do not turn about their own axes. About steady shapes (`SteadyShape.stability`) links also
+        turn about their own axes, so that the least energy is lost.
 
     Raises
     ------
