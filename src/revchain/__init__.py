@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Chains that whirl: natural frequencies, whirl speeds, steady shapes (relative equilibria), each with an error bound.
+"""Chains that whirl: natural frequencies, whirl speeds, steady shapes (relative equilibria), with bounds of their errors.
 
 A chain of rigid links hangs from a support. It can be a single point mass, and its limit is a flexible cord. At its
 critical speeds it leaves the vertical and whirls about it as one rigid figure. For a chain hung from a fixed point the
@@ -27,9 +27,10 @@ Files
 C++
     cmake_prefix: the folder of the C++ headers in this package
 
-Links are listed from the free end up. Numbers are in SI units; text such as "39 inch" is converted. Links and pins are
-counted from 0, modes from 1. The *conical height* of a speed is ``gravity / speed**2``, the height of the conical
-pendulum with that speed; conical heights of chains do not depend on gravity.
+Links are listed from the free end up, unless a chain is given in the other order. Numbers are in SI units; text such
+as "39 inch" is converted. Links and pins are counted from 0, modes from 1. The *conical height* of a speed is
+``gravity / speed**2``, the height of the conical pendulum with that speed; conical heights of chains do not depend on
+gravity.
 
 Examples
 --------

@@ -350,10 +350,10 @@ def without_answer(question: str, system: System, path: Path) -> str:
 
 _SUMMARIES = {
     "modes": "Find the whirl speeds (natural frequencies) and mode shapes.",
-    "shapes": "Find every steady shape (relative equilibrium) at one speed, at any inclination.",
+    "shapes": "Find the steady shapes (relative equilibria) at one speed, at any inclination.",
     "response": "Find the forced motion of each pin when the support moves in a small circle or to and fro.",
-    "swing": "Find the small oscillations in a plane after release, or while the support is moved.",
-    "branches": "Find the bifurcation diagram: all branches of steady shapes up to a speed.",
+    "swing": "Find the small oscillations after release, or while the support is moved.",
+    "branches": "Find the bifurcation diagram: the branches of steady shapes up to a speed.",
     "campbell": "Find the frequencies of small motion about a steady shape against the speed (Campbell diagram).",
     "drag": "Find the steady shape of a chain that an arm carries round through still air, and the torque.",
     "equilibria": "Find the equilibria of a governor: at one speed, or those between its stops.",

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Closed forms of the paper, one module for each subject."""
+"""Closed forms, most of them of the paper, by subject."""

@@ -243,8 +243,7 @@ def bell_and_clapper(
         with ``centroid`` 0.05 and the opposite sign of `joint`.
     returns: Heights, ratios of inclinations, and how they change with the data.
     raises: If the chain does not have two links with weight, or `gravity` is not positive, or `inverted` has not one or
-        two truth values. A TypeError if `chain` is
-        not a `Chain`.
+        two truth values. A TypeError if `chain` is not a `Chain`.
     notes: The ratio r of the inclination of the clapper to that of the bell is a root of
         ``h1 r^2 - ((m + 1) l1 - m l2 - a2) r - (m + 1) a2 = 0``, one positive and one negative. The conical height is
         ``l1 + a2 / r``. An inverted clapper changes the sign of l1 in the height, an inverted bell that of a2. If one

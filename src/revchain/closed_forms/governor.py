@@ -155,8 +155,8 @@ class SleeveGovernor(Solved, row="point"):
     shaft_inertia: Moment of inertia of a shaft that turns freely, kg m^2; infinite: its speed is held
     lowest_inclination: Inclination at the lower stop, rad, or a text such as "25 deg"
     highest_inclination: Inclination at the upper stop
-    raises: If a number is out of its range or not finite; if lower links do not reach the sleeve, a sleeve or spring has
-        nothing to be carried by, or only one stop is given.
+    raises: If a number is out of its range or, but for `shaft_inertia`, not finite; if lower links do not reach the
+        sleeve, a sleeve or spring has nothing to be carried by, or only one stop is given.
     notes: The speeds follow from the energies: n^2 = 2 V'/J'. Accuracy, measured against the forces in the links on 10,000
         random governors: 1e-12 of the square of the speed.
 
@@ -172,13 +172,15 @@ class SleeveGovernor(Solved, row="point"):
     _optional = _STOPS
     lowest_speed: Field[float] = Field("Speed of equilibrium at the lower stop, rad/s; NaN without stops.", _speed("lowest_speed"))
     highest_speed: Field[float] = Field("Speed of equilibrium at the upper stop, rad/s; NaN without stops.", _speed("highest_speed"))
-    lift: Field[float] = Field("Lift of the sleeve between the stops, m.", _speed("lift"))
+    lift: Field[float] = Field("Lift of the sleeve between the stops, m; NaN without stops.", _speed("lift"))
     sensitiveness: Field[float] = Field(
-        "Difference of the speeds at the stops over their mean: small in a sensitive governor, 0 in an isochronous one.",
+        "Difference of the speeds at the stops over their mean: small in a sensitive governor, 0 in an isochronous one; NaN "
+        "without stops.",
         lambda g: 2 * (g.highest_speed - g.lowest_speed) / (g.highest_speed + g.lowest_speed),
     )
     insensitiveness: Field[float] = Field(
-        "Width of the band of speeds in which friction holds the sleeve, over the mean speed, at the middle between the stops.",
+        "Width of the band of speeds in which friction holds the sleeve, over the speed of equilibrium, at the middle "
+        "between the stops; NaN without stops.",
         _speed("insensitiveness"),
     )
 
@@ -238,10 +240,11 @@ class SleeveGovernor(Solved, row="point"):
         """Return all equilibria at a speed, by inclination, with the arms at most horizontal and the balls on their own side
         of the axis; stops are ignored.
 
-        Intervals prove that there are no others. Where they cannot, a ValueError says so.
+        Intervals prove that there are no others.
 
-        angular_speed: Speed of the shaft in rad/s, or a text such as "300 rpm"; not negative
+        angular_speed: Speed of the shaft in rad/s, or a text such as "300 rpm"; not negative.
         returns: A sequence of `GovernorPoints`, whose `angular_speed` is the given one, with a table and a picture.
+        raises: If the speed is negative or not finite, or intervals cannot prove that there are no others.
 
         >>> pendulum = rc.SleeveGovernor(ball_mass=1.0, arm=1.0, gravity=9.81)
         >>> [(round(float(at.inclination), 4), at.stable) for at in pendulum.equilibria(4.0)]
@@ -283,7 +286,8 @@ class SleeveGovernor(Solved, row="point"):
 
         inclination: Inclination of the arms, rad
         change: Fraction by which the speed rises
-        raises: If the governor has no sleeve, or no equilibrium at the inclination at a speed above 0.
+        raises: If the governor has no sleeve, or no equilibrium at the inclination at a speed above 0, or `change` is not
+            positive.
 
         >>> porter = rc.SleeveGovernor(ball_mass=2.3, arm=0.33, lower_arm=0.33, sleeve_mass=9.5122, gravity=9.81)
         >>> answer = porter.effort("27 deg")

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Motions that a constructor computes from numbers: carriages at a buffer stop, a governor, ropes that whirl.
 
-Angles are in radians. The tension of a rope is given as the length of rope of equal weight, and its lengths are in any
-one unit. Source: Greenhill (1908): carriages section 2, ropes section 5, the governor section 7.
+Angles are in radians. The tension of a rope is given as the length of rope of equal weight, and its lengths are in the
+unit of length of `gravity`. Source: Greenhill (1908): carriages section 2, ropes section 5, the governor section 7.
 """
 
 from __future__ import annotations
@@ -179,11 +179,10 @@ class RopePoints(NamedTuple):
 class TortuousPoints(NamedTuple):
     """Points of a tortuous rope.
 
-    `x`, `arc`: distances along the axis and along the rope from the point nearest to the axis. `radius`: distance
-    from the axis. `angle`: angle round the axis; for the plane rope 0 at ``x = 0``, pi/2 up to the next crossing of the axis, and pi more
-    after each.
-    `radius_slope`, `angle_slope`: ``d radius / dx``, ``d angle / dx``. `tension_ratio`: tension divided by its
-    component along the axis.
+    `x`, `arc`: distances along the axis and along the rope from the point nearest to the axis. `radius`: distance from
+    the axis. `angle`: angle round the axis; for the plane rope 0 at ``x = 0``, pi/2 up to the next crossing of the
+    axis, and pi more after each. `radius_slope`, `angle_slope`: ``d radius / dx``, ``d angle / dx``. `tension_ratio`:
+    tension divided by its component along the axis.
     """
 
     x: FloatOrArray

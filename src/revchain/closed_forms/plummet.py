@@ -157,7 +157,7 @@ def carried_inclinations(length: ArrayLike, height: ArrayLike, radius: ArrayLike
     radius: Radius of the circle of the support
     returns: For numbers an array; for arrays a list with one array for each element of the broadcast shape, in C order.
         The inclinations are the roots of ``height tan d = radius + length sin d``, rad, ascending from -pi/2 to pi/2,
-        outwards positive. There is one, or three if ``radius**(2/3) <= length**(2/3) - height**(2/3)``.
+        outwards positive. There is one, or three if ``radius**(2/3) < length**(2/3) - height**(2/3)``.
 
     >>> rc.plummet.carried_inclinations(1.0, height=0.25, radius=0.1).round(4)
     array([-1.288 , -0.1341,  1.3421])

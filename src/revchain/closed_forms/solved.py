@@ -17,7 +17,7 @@ class Solved(Result):
     """A result whose constructor computes it from numbers; two are equal if the numbers given are equal.
 
     In a subclass `_solver` is the compiled class that computes the result, and `_optional` are the arguments that may
-    be None. The table has one row.
+    be None. The table has one row, unless a subclass writes another.
     """
 
     __slots__ = ()

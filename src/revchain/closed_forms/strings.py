@@ -65,8 +65,8 @@ class TransverseModes(Result, row="mode", title="TransverseModes: {_many}"):
         "Bound of the relative error of each conical height, shape (n,).", heading="error bound"
     )
     shape: Field[Floats] = Field(
-        "Offsets of the first support, the weights and the last support, shape (n, n + 2). The largest is 1; the offset "
-        "of the first weight is positive.",
+        "Offsets of the first support, the weights and the last support, shape (n, n + 2). The largest size is 1; the "
+        "offset of the first weight is positive.",
         axes=("point",),
     )
 

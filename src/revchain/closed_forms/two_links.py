@@ -3,12 +3,12 @@
 # The decorator of table.py gives each function its body, a call of the compiled formula, and completes its docstring.
 """Closed forms for two links (the double pendulum), or for one link on a support that yields.
 
-For small inclinations the conical heights are the roots of a quadratic, computed without cancellation. At any
-inclination all steady shapes (relative equilibria) are found. Lengths and heights are in one unit; only the ratio of
-weights matters. A plummet is a point mass on a massless thread. A *link* is a rigid body with a `centroid`, the
-distance of its centre of gravity below its upper pin (positive), and a `radius_of_gyration` about the centre of
-gravity (not negative; 0 is a plummet). `height` is the conical height ``gravity / angular_speed**2`` of a speed.
-Source: Greenhill (1908), sections 2, 6 and 8.
+For small inclinations the conical heights are the roots of a quadratic, computed without cancellation. Functions named
+``..._shapes`` return all hanging steady shapes (relative equilibria) at any inclination. Lengths and heights are in one
+unit; only the ratio of weights matters. A plummet is a point mass on a massless thread. A *link* is a rigid body with a
+`centroid`, the distance of its centre of gravity below its upper pin (positive), and a `radius_of_gyration` about the
+centre of gravity (not negative; 0 is a plummet). `height` is the conical height ``gravity / angular_speed**2`` of a
+speed. Source: Greenhill (1908), sections 2, 6 and 8.
 """
 
 from __future__ import annotations

@@ -40,7 +40,7 @@ class ModelWarning(UserWarning):
     Attributes
     ----------
     gravity : float
-        Acceleration of gravity in the model, m/s^2: the argument `gravity` of all questions about the system.
+        Acceleration of gravity in the model, m/s^2: the argument `gravity` of questions about the system.
     left_out : tuple of str
         One sentence for each part that `ignore` or `links` left out.
     remarks : tuple of str

@@ -94,7 +94,7 @@ def from_mjcf(
     slide. A hinge about the vertical above all links is a turntable that keeps its speed. Links without a turntable, or on
     ball joints, do not spin about their own axes: moments of inertia about these axes have no effect and are left out.
 
-    Contacts and keyframes are not read, nor are motors, which do nothing without a signal, and the ends of a rail.
+    Contacts, keyframes, the ends of a rail, and motors that exert no force without a signal are not read.
 
     Accuracy: speeds of small motion agree with MuJoCo's linearised equations to 1e-9, the error of the differences there.
     Cost: that of MuJoCo's compiler.
@@ -142,7 +142,8 @@ def from_urdf(
     Raises
     ------
     ValueError
-        If the file is no serial chain: one message with all obstacles, as from `from_mjcf`.
+        If the file is no serial chain: one message with all obstacles, as from `from_mjcf`; or if `ignore` has an unknown
+        word or `links` an unknown name.
     ImportError
         If mujoco is not installed; the message says how to install it.
     OSError

@@ -60,7 +60,8 @@ def to_mjcf(
     ValueError
         If the system is a cord or held at both ends, stands in a fluid, has linear drag, a flywheel in a link without
         moment of inertia, links that meet at a pin without mass, or more than 490 links; if `gravity` is given with a
-        shape; or if the file cannot be written.
+        shape; if the list of shapes is empty; if a number is out of its range; or if the file cannot be written (the
+        error is also an OSError).
     TypeError
         If `system` is of another class.
 
@@ -129,7 +130,7 @@ def to_urdf(
     ValueError
         As for `to_mjcf`; also for flywheels, springs and trolleys: URDF has no springs and no velocities.
     TypeError
-        If `system` is of another class.
+        If `system` is of another class, such as a list of shapes.
 
     Notes
     -----

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The functions that answer questions about a system: modes, shapes, branches, response, swing, tune, fit, explain."""
+"""The functions that answer questions about a system."""

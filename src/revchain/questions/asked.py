@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Answers speak the unit in which a question was asked."""
+"""Results print and draw speeds in the unit in which the question was asked."""
 
 from __future__ import annotations
 

@@ -62,9 +62,9 @@ def conical_heights(
     ------
     ValueError
         If a number is not real and finite, or the shapes cannot be broadcast; if `Chain` would refuse one of the chains
-        (the message names chain, link and number); if `centroid` comes without exactly one of `pendulum_length` and
-        `radius_of_gyration`; if `count` exceeds the modes of a chain; if heights of a chain cannot be proved to half the
-        digits.
+        (the message names chain, link and number); if `threads` is negative; if `centroid` comes without exactly one of
+        `pendulum_length` and `radius_of_gyration`; if `count` exceeds the modes of a chain; if heights of a chain
+        cannot be proved to half the digits.
 
     Notes
     -----

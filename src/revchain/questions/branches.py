@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`branch` follows one branch of steady shapes; `branches` finds all of them up to a speed, isolated ones too."""
+"""`branch` follows one branch of steady shapes; `branches` finds those up to a speed, isolated ones too."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def branch(
     -------
     Branch
         The points of the branch. The branch of a hanging system runs from the critical speed of its mode to the given
-        speed; its first point is the straight chain. It is the only one if double precision cannot separate the end
+        speed; its first point is the straight chain. It is the only point if double precision cannot separate the end
         from it; ``end`` is then ``stuck``. With the support off the axis the branch starts at a tenth of the lower of
         two speeds: the given speed, and the first critical speed of the rig with its support on the axis. The branch of
         a held system runs from the given speed to lower ones and, after a fold, back; it ends where a link becomes
@@ -81,8 +81,11 @@ def branch(
     ------
     ValueError
         If there is no such mode (with a support off the axis: if `mode` is not 1), if not exactly one of
-        `max_angular_speed` and `min_conical_height` is given, if the speed is not above that of the mode, or if
-        `direction` is neither 1 nor -1; if a `Held` system is under a tension or has no gravity.
+        `max_angular_speed` and `min_conical_height` is given, if the speed is not above that of the mode, if a number
+        is out of its range, or if `direction` is neither 1 nor -1; if a `Held` system is under a tension or has no
+        gravity; if a rig has springs at pins, a dashpot at its support, linear drag or a free trolley.
+    TypeError
+        If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
 
     Notes
     -----
@@ -134,7 +137,7 @@ def branches(
     hanging_only: bool = True,
     stability: bool = False,
 ) -> Branches:
-    """Return all branches of steady shapes up to a speed, including isolated ones, and whether any can be missing.
+    """Return the branches of steady shapes up to a speed, including isolated ones, and whether any can be missing.
 
     Parameters
     ----------
@@ -173,16 +176,18 @@ def branches(
 
         With ``hanging_only=False`` the branches of the system's own posture come first, then those of each other posture.
         `Branch.system` is the `Rig` with the links of the posture inverted, and ``mode`` counts its modes. ``complete`` is
-        then false, except for a single link: the proof that no loop is missing between two speeds is for links that hang.
+        then false, except for a chain of one link: the proof that no loop is missing between two speeds is for links
+        that hang.
 
     Raises
     ------
     ValueError
         If not exactly one of `max_angular_speed` and `min_conical_height` is given, or a number is out of its range; if
         a link of a rig has no effective tension at one of the speeds; if a `Held` system is under a tension or has no
-        gravity; with ``hanging_only=False`` for a cord, a held system, or more than 10 links.
+        gravity; if a rig has springs at pins, a dashpot at its support, linear drag or a free trolley; with
+        ``hanging_only=False`` for a cord, a held system, or more than 10 links; with `stability` for a cord.
     TypeError
-        If `hanging_only` or `stability` is not a bool.
+        If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`, or `hanging_only` or `stability` is not a bool.
 
     Notes
     -----

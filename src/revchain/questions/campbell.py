@@ -56,7 +56,7 @@ def campbell(
     Returns
     -------
     Campbell
-        Frequencies, stability and crossings. Where there is no such shape they are NaN.
+        Frequencies, stability and crossings. Where there is no such shape, frequencies are NaN and `stable` is false.
 
     Raises
     ------

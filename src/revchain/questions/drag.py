@@ -41,7 +41,7 @@ def drag_shape(
     drag : Drag
         Drag of the links, of bodies at them, or of both.
     angular_speed : float
-        Speed, rad/s; negative: the other direction, which makes a difference for flywheels only.
+        Speed, rad/s, not 0; negative: the other direction, which makes a difference for flywheels only.
     half_waves : int, optional
         Number of half waves of the shape without drag from which to start; of several the one whose free end is farthest
         out, as in `campbell`. If left out, the shape that begins at rest.

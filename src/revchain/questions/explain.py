@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The method that `modes` takes for an accuracy, and the cost of the other methods."""
+"""`explain`: the method that `modes` takes for an accuracy, and the cost of the other methods."""
 
 from __future__ import annotations
 
@@ -45,13 +45,14 @@ def explain(
     Raises
     ------
     TypeError, ValueError
-        If `modes` would raise one for these arguments.
+        If `modes` would raise one for these arguments. For a rig it is not checked that mode `first` exists.
 
     Notes
     -----
     The choice depends on the size and kind of the chain and on the modes and the tolerance, not on the numbers of each link.
     If the chosen method cannot prove its bound, as happens for links that differ by large factors, `modes` takes the
-    next one, usually bisection. ``Modes.method`` names the method that was used. Cost: 20 microseconds.
+    next one, usually bisection. ``Modes.method`` names the method that was used. Cost: 20 microseconds. For a
+    cord one mode is computed.
 
     Examples
     --------

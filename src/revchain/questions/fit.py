@@ -61,8 +61,8 @@ def fit(
         was measured: where a period is given, of the period.
     vary : str, list of str or dict
         Paths of the data that may change, as in `tune`, such as ``"links[load].mass"``; ``"gravity"`` is one of them. A
-        dictionary also gives a start value, which is needed if the support is firm or a mass is 0:
-        ``{"support.stiffness": 2000.0}``.
+        dictionary also gives a start value, which is needed if the present value is infinite or at its lower limit, as the
+        stiffness of a firm support or a mass of 0: ``{"support.stiffness": 2000.0}``.
     gravity : float, optional
         Acceleration of gravity, m/s^2; standard gravity if left out. The start value if it varies.
 
@@ -78,8 +78,8 @@ def fit(
     ------
     ValueError
         If there are more data than speeds, an unknown path, two paths to the same number, a mode that does not exist, a
-        speed or uncertainty that is not positive, or a datum without a start value; if the system is held at a span and
-        so has no modes.
+        speed or uncertainty that is not positive, uncertainties of some speeds alone, or a datum without a start value;
+        if the system is held at a span, or its tension does not exceed its weight.
     TypeError
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
     ImportError
@@ -87,12 +87,13 @@ def fit(
 
     Notes
     -----
-    Method: trust-region least squares (`scipy.optimize.least_squares`) in the logarithms of the data, or in fractions of
-    their size for momenta, spins and centroids, which may have either sign. Derivatives are those of `Modes.sensitivity`;
-    for cords, held systems, rigs with dashpots and masses of wheels they are differences of fourth order. The values
-    are within a millionth of their standard uncertainties of a local minimum of the sum of squares. It is not proved
-    that there is no lower minimum far from the start. Uncertainties are to first order: they assume that speeds are
-    linear in the data.
+    Method: trust-region least squares (`scipy.optimize.least_squares`) in the logarithms of the data, counted from
+    their lower limits, or in fractions of a typical size for momenta, spins and centroids, which may have either sign.
+    Derivatives are those of `Modes.sensitivity`; for cords, held systems, rigs with springs at pins, dashpots or linear
+    drag, and for data without a derivative there they are differences of fourth order. The values are within a
+    millionth of their standard uncertainties of a local minimum of the sum of squares. It is not proved that there is
+    no lower minimum far from the start. Uncertainties are to first order: they assume that speeds are linear in the
+    data.
 
     Which measurement disagrees: the leverage of a measurement is its element h on the diagonal of the hat matrix, the part
     of a change of the measured value by which the computed one follows. Its residual has the standard deviation

@@ -55,14 +55,16 @@ def modes(
     first : int, optional
         Number of the first mode; the slowest mode is 1. Slower modes are not returned.
     conical_height : (low, high), optional
-        Window of conical heights, m: all modes with ``low < conical height <= high``. `low` may be 0, `high` infinite.
+        Window of conical heights, m: all modes with ``low < conical height <= high``. `low` may be 0 except for a cord,
+        `high` infinite.
     angular_speed : (low, high), optional
-        Window of speeds, rad/s: all modes with ``low <= whirl speed < high``. `low` may be 0, `high` infinite.
+        Window of speeds, rad/s: all modes with ``low <= whirl speed < high``. `low` may be 0, `high` infinite except
+        for a cord.
     rtol : float, optional
         Relative tolerance of the conical heights. The cheapest method whose bound is within it is used: closed form,
         Bessel zero, coarser chain, ... (`explain` lists them). Below 2 ulp the method is double-double, whose heights are
-        ``conical_height + conical_height_low``. If left out: full accuracy in double, 2 ulp. Rigs are always solved to
-        full accuracy.
+        ``conical_height + conical_height_low``. If left out: full accuracy in double, 2 ulp. Rigs, cords
+        and held systems are always solved to full accuracy.
     gravity : float, optional
         Acceleration of gravity, m/s^2; standard gravity if left out.
     method : str, optional
@@ -94,22 +96,24 @@ def modes(
     ------
     ValueError
         If the requested modes do not exist or are specified in two ways, a window is not a pair (low, high) with low
-        below high, `rtol` is NaN or negative, or `method` or `precision` is unknown; if a method or another
-        precision than double is asked of a system other than a chain, or `certify` of a cord; if a rig has more than
-        20,000 links and its speeds may be complex (inverted links or driven wheels together with momentum, floats in
-        rotating fluid); if a held system is not under a tension that exceeds its weight.
+        below high, `rtol` is NaN or negative, `threads` is negative, `method` or `precision` is unknown, or the method
+        does not apply to the chain; if a method or another precision than double is asked of a system other than a
+        chain, or `certify` of a cord; if a rig with dashpots or linear drag comes with a window or `certify`, or has
+        more than 1000 links; if a rig has more than 20,000 links and its speeds may be complex (inverted links or
+        driven wheels together with momentum, floats in rotating fluid); if a held system is not under a tension that
+        exceeds its weight.
     TypeError
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
 
     Notes
     -----
-    Proved counts of the exact heights decide which modes lie in a window: adjacent windows share no mode and miss none.
-    A height just above `low` may be rounded to it.
+    For chains, held chains and rigs whose speeds cannot be complex, proved counts of the exact heights decide which
+    modes lie in a window: adjacent windows share no mode and miss none. A height just above `low` may be rounded to it.
 
-    Accuracy: ``error_bound`` is the relative error bound (2 ulp by default, for a held chain 1 ulp, proved by counts).
-    Cost: bisection takes O(N) for each halving, about 50 halvings for each mode; shapes take O(N) time and
-    memory for each mode, when they are read. Other Python threads can run meanwhile. For a rig whose speeds may be complex
-    all speeds are found, in about 1 microsecond times the square of the number of links.
+    Accuracy: ``error_bound`` is the relative error bound (by default 2 ulp for a chain and 1 ulp for a held chain,
+    proved by counts). Cost: bisection takes O(N) for each halving, about 50 halvings for each mode; shapes take O(N)
+    time and memory for each mode, when they are read. Other Python threads can run meanwhile. For a rig whose speeds
+    may be complex all speeds are found, in about 1 microsecond times the square of the number of links.
 
     References
     ----------
@@ -410,14 +414,14 @@ def count_modes(
         Speeds in rad/s, positive, any shape. Give either this or `conical_height`. For a rig with flywheels a negative
         speed counts the backward modes between 0 and that speed.
     gravity : array_like, optional
-        Acceleration of gravity, broadcast against `angular_speed`; standard gravity if left out. It must be a single
-        number for a rig and for a held system.
+        Acceleration of gravity, m/s^2, broadcast against `angular_speed` for a chain; standard gravity if left out. For
+        other systems it must be a single number.
 
     Returns
     -------
     numpy.int64 or ndarray of int64
-        Number of modes slower than each speed; shape of the argument, broadcast against `gravity`. For a rig with flywheels a speed counts the modes
-        in its own direction, and a height those of both directions.
+        Number of modes slower than each speed; shape of the argument, broadcast against `gravity`. For a rig with
+        flywheels a speed counts the modes in its own direction, and a height those of both directions.
 
     Raises
     ------

@@ -42,7 +42,7 @@ def response(
 ) -> Response:
     """Return the forced motion of a chain whose support moves in a small circle or to and fro, or is pushed.
 
-    With dashpots it is finite at resonances: offsets are complex, with amplitudes and phases.
+    With dashpots or linear drag offsets are complex, with amplitudes and phases.
 
     Parameters
     ----------
@@ -56,11 +56,11 @@ def response(
         Acceleration of gravity, m/s^2, for `angular_speed` and for flywheels; standard gravity if left out.
     support_radius : float, optional
         Radius of the circle, or amplitude to and fro, m, positive. If left out, the radius of the rig, or 1 if it has
-        none: offsets are then relative to that of the support.
+        none: offsets are then relative to that of the support. Give at most one of this and the next two.
     acceleration : float, optional
         Amplitude of the acceleration of the support, m/s^2, instead of a radius; positive.
     force : float, optional
-        Amplitude of a horizontal force on a support that yields, N (in the unit of the weights), instead of a radius;
+        Amplitude of a horizontal force on a support that yields, N or the unit of the weights, instead of a radius;
         positive. With momentum of flywheels the force turns with the speed, as a radius and an acceleration do; to and fro
         is then the mean of the responses at both signs of the speed.
     pins : int or array_like of int, optional
@@ -72,8 +72,8 @@ def response(
     Returns
     -------
     Response
-        The offsets and counts of modes. At a resonance without dashpots, as far as double-double can tell,
-        offsets are NaN and `resonant` is true. The `error_bound` is proved, but with springs or dashpots at pins, a
+        The offsets and counts of modes. At a resonance without damping, as far as double-double can tell,
+        offsets are NaN and `resonant` is true. The `error_bound` is proved. With springs at pins, dashpots, linear drag, a
         trolley, an acceleration or a force there is an `error_estimate` instead.
 
     Raises
@@ -83,15 +83,15 @@ def response(
     ValueError
         If `system` is a `Cord` or a `Held`; if not exactly one of `conical_height` and `angular_speed` is given; if more
         than one of `support_radius`, `acceleration` and `force` is given, or a force on a firm support; if a number is not
-        positive and finite or differs from the chain's by a factor of 1e76; if there is no such pin.
+        positive and finite or differs from the chain's by a factor of 1e76; if there is no such pin; if `threads` is
+        negative.
 
     Notes
     -----
     The offsets solve ``K y = M y / conical_height`` for the given offset of the support. The theory is linear: offsets
-    must be small compared with the links; scale them with the radius. Below the first whirl speed the chain moves in
-    phase with its support. The motion changes sign at each whirl speed; between two whirl speeds there is a speed at
-    which a pin stays on the axis. Lowest links without net weight in a fluid that turns with them stay in line with the
-    link above.
+    must be small compared with the links; scale them with the radius. Below the first whirl speed a chain moves in
+    phase with its support. Without damping the offsets grow without limit towards a whirl speed and change sign there.
+    Lowest links without net weight in a fluid that turns with them stay in line with the link above.
 
     Dashpots at pins act on rates of angles between links that do not turn about their own axes, as in motion to and fro;
     that of the support on its velocity over the ground.

@@ -44,7 +44,7 @@ def steady_shapes(
     top_tension: float | None = None,
     min_conical_height: float | None = None,
 ) -> SteadyShapes:
-    """Return all steady shapes (relative equilibria) of a system at a speed, or all of one branch with a property.
+    """Return the steady shapes (relative equilibria) of a system at a speed, or those of one branch with a property.
 
     Parameters
     ----------
@@ -77,7 +77,7 @@ def steady_shapes(
         Chains, rigs and cords: search only the branch of this mode, see `steady_shape`. Then a property may be given
         instead of the speed, and the shapes have different speeds.
     lowest_inclination, tip_radius, top_tension, min_conical_height : float, optional
-        With `mode`, as in `steady_shape`. `min_conical_height` is half the height of the speed if left out.
+        With `mode`, as in `steady_shape`. If a speed is given, `min_conical_height` is half its height if left out.
 
     Returns
     -------
@@ -89,8 +89,8 @@ def steady_shapes(
         end at a positive offset is given (if that is 0, the one with a positive inclination of the lowest inclined
         link). If the support is carried round there are no mirror images; outwards is positive. The order is by half
         waves, then by inclination of the lowest link. ``complete`` is true if it is proved that none is missing among
-        those asked for. Inclinations are within the proved ``error_bound``, usually 2.2e-16. The list is empty and
-        complete if the height exceeds that of the first mode, in any posture.
+        those asked for. Inclinations are within the proved ``error_bound``, usually 2.2e-16. A chain has no shapes in any
+        posture if the height exceeds that of its first mode.
 
         Cords: ordered by half waves. ``complete`` is true if a theorem counts the shapes: there is then one for each
         critical height above the given height. This holds for a uniform cord with or without a tip, and for a density
@@ -113,9 +113,10 @@ def steady_shapes(
     Raises
     ------
     ValueError
-        If not exactly one of `angular_speed` and `conical_height` is given, a number is not positive and finite,
+        If not exactly one of `angular_speed` and `conical_height` is given, a number is out of its range,
         `direction` is neither 1 nor -1, or a link of a rig has no effective tension (tension plus speed times momentum
-        divided by length) at the speed; if a property is given without `mode`, or `mode` for a held system.
+        divided by length) at the speed; if a rig has springs at pins, a dashpot at its support, or linear drag; if a
+        property is given without `mode`, or `mode` for a held system.
     TypeError
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`, or `hanging_only` or `prove` is not a bool.
 
@@ -291,8 +292,8 @@ def steady_shape(
     tip_radius : float
         Distance of the free end from the axis, m, on either side.
     top_tension : float
-        Tension at the topmost pin (of a held system: at its upper end), greater than the weight that hangs there; in N,
-        or in the unit of the weights.
+        Tension at the topmost pin (of a hanging system greater than its weight), or at the upper end of a held system; in
+        N, or in the unit of the weights.
     gravity : float, optional
         Acceleration of gravity, m/s^2; standard gravity if left out.
     direction : {1, -1}, optional
@@ -304,7 +305,7 @@ def steady_shape(
     Returns
     -------
     SteadyShape
-        The shape, the first on the branch that has the property (`steady_shapes` with `mode` returns all).
+        The shape, the first on the branch that has the property (`steady_shapes` with `mode` returns the others, too).
         Inclinations are within ``error_bound``, for chains proved except at a fold (measured: 2.3e-16), for cords
         estimated. Each step checks that the shape is on this branch, see `branch`. For a held system and a speed it is
         the shape reached from the nearly straight chain; for a held system and a top tension it is the fastest shape
@@ -316,7 +317,10 @@ def steady_shape(
         If there is no such mode, if not exactly one number is given or it is out of its range, if `direction` is
         neither 1 nor -1, if `min_conical_height` is not below the height of the mode, if the branch does not exist yet
         at that speed, or if no shape of the branch has the property; if a `Held` system is under a tension or has no
-        gravity, or comes with `lowest_inclination` or `tip_radius`.
+        gravity, comes with `lowest_inclination` or `tip_radius`, or has springs and comes with `top_tension`; if a rig
+        has springs at pins, a dashpot at its support, linear drag or a free trolley.
+    TypeError
+        If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
 
     Notes
     -----
@@ -399,10 +403,11 @@ def on_branch(
     except ValueError as error:
         if name == "lowest_inclination":  # which C++ calls that of the tip
             raise ValueError(str(error).replace("tip inclination", name)) from None
-        if name != "top_tension" or not held:
+        if name != "top_tension" or "tension" not in str(error):
             raise
         what = str(error).partition(": ")[2].rpartition(", got ")[0]  # the number there is the tension / gravity
-        raise ValueError(f"{caller}: {what}; use branches for the tensions that it has, got {value:g}") from None
+        what += "; use branches for the tensions that it has" if held else ""
+        raise ValueError(f"{caller}: {what}, got {value:g}") from None
 
 
 def _check_held(caller: str, held: Held, mode: int, name: str, value: float) -> None:

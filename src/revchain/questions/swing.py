@@ -48,9 +48,9 @@ def swing(
 ) -> Swing:
     """Return the small oscillations of a chain, rig or cord from any initial state, as a sum of modes.
 
-    The support may be moved: a crane that brakes, a ship that rolls. Dashpots damp the motion.
+    The support may be moved: a crane that brakes, a ship that rolls. Dashpots and linear drag damp the motion.
 
-    The motion is in one plane; without dashpots its natural angular frequencies are the whirl speeds of `modes`. Motions
+    The motion is in one plane; without damping its natural angular frequencies are the whirl speeds of `modes`. Motions
     in the two horizontal directions are independent: call the function for each. Flywheels with momentum turn the plane
     of the swing; offsets and velocities of such a `Rig` are complex, x + i y.
 
@@ -59,7 +59,7 @@ def swing(
     system : Chain, Rig or Cord
         A chain of N links, a rig, or a cord.
     time : array_like
-        Times in s; a number or an array with one axis. Negative ones only without dashpots, springs at pins, trolleys and a
+        Times in s; a number or an array with one axis. Negative ones only without damping, springs at pins, trolleys and a
         moving support.
     offset : array_like, shape (N + 1,) or (N,), optional
         Offsets of the pins at time 0, m, free end first; on the axis if left out. The last one, of the support, may be
@@ -82,21 +82,21 @@ def swing(
     -------
     Swing
         The motion. The offset of pin m at time i is within ``error_bound[i] + truncation_error[m]`` of the exact one; for a
-        cord that of place m is within ``truncation_error[m]``, which is an estimate. With springs or dashpots at pins, a
+        cord that of place m is within ``truncation_error[m]``, which is an estimate. With damping, springs at pins, a
         trolley or a support that is moved there is an `error_estimate` instead of a bound.
 
     Raises
     ------
     TypeError
-        If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
+        If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`, or `support` is not a `SupportMotion`.
     ValueError
-        If `system` is a `Held`, or a `Cord` whose support is moved; if a number is not finite, a start has another length
-        or moves a firm support, `count` exceeds the number of modes, or weights differ by a factor of 2e123 or more; if
-        a function jumps, or `arc_length` comes with a chain. For a rig: if its straight position is unstable (the
-        message gives the growth rate), if its support is carried round (use `response`), if the fluid turns, if it has
-        momentum and pins without inertia, or if a start is complex without momentum. With dashpots, springs at pins, a
-        trolley or a moving support: if a time is negative, `count` is given, a force acts on a firm support, the motion
-        exceeds the largest double, or there are more than 1000 links.
+        If `system` is a `Held`, or a `Cord` with a bob or whose support is moved; if a number is not finite, a start
+        has another length or moves a firm support, `count` exceeds the number of modes, or weights differ by a factor
+        of 2e123 or more; if a function jumps, or `arc_length` comes with a chain or a rig. For a rig: if its straight
+        position is unstable (the message gives the growth rate), if its support is carried round (use `response`), if
+        the fluid turns, if it has momentum and pins without inertia, or if a start is complex without momentum. With
+        damping, springs at pins, a trolley or a moving support: if a time is negative, `count` is given, a force acts
+        on a firm support, the motion exceeds the largest double, or there are more than 1000 links.
 
     Notes
     -----
@@ -111,7 +111,7 @@ def swing(
     keep their phase. Accuracy: 1e-15 of the amplitudes. Cost: 0.6 microseconds for each link and mode, and 3 ns for each
     link, mode and time.
 
-    With dashpots, springs at pins, a trolley or a moving support: each motion of `modes` is driven by its part of the
+    With damping, springs at pins, a trolley or a moving support: each motion of `modes` is driven by its part of the
     load, exactly where that is a polynomial of time. If damping is critical, matrix exponentials go from time to time.
     The dashpot of the support acts on its absolute velocity, also where the far end of its spring
     moves. The straight system may then be unstable: it falls.
@@ -162,6 +162,8 @@ def swing(
         raise TypeError(f"{_CALLER}: support must be a revchain.SupportMotion, got {shown(support)}")
     if support is not None and system._kind == "cord":
         raise ValueError(f"{_CALLER}: a Cord has no moving support; use its chain: cord.chain(100)")
+    if arc_length is not None and system._kind != "cord":
+        raise ValueError(f"{_CALLER}: arc_length is for a Cord; a Chain has pins, leave it out, got {shown(arc_length)}")
     if _needs_all_motions(system, support):
         return _transient(system, times, offset, velocity, support, number, g)
     of: Any = system
@@ -172,8 +174,6 @@ def swing(
         many = CORD_MODES if number is None else number
         swung = _core.cord_swing(of._under(g), starts[0], starts[1], times, arc, many, g)
     else:
-        if arc_length is not None:
-            raise ValueError(f"{_CALLER}: arc_length is for a Cord; a Chain has pins, leave it out, got {shown(arc_length)}")
         turns = system._kind == "rig" and of.has_momentum
         names = _TURNING if turns else _IN_A_PLANE
         ask: Any = _core.whirl_swing if turns else _core.swing if system._kind == "chain" else _core.rig_swing

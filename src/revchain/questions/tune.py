@@ -60,8 +60,9 @@ def tune(
           ``radius_of_gyration``.
         - for a rig also ``"support.stiffness"``, ``"support.mass"``, ``"flywheels[k].momentum"``, and the data given for
           flywheels and displaced fluid: ``"flywheels[k].spin"``, ``.mass``, ``.radius_of_gyration``, ``.axial_moment``,
-          ``"displaced[k].mass"``, ``.added_mass``, ``.centroid``, ``.radius_of_gyration``.
-        - for a cord also ``"tip_mass"``; for a held system ``"tension"`` or ``"span"``.
+          ``"displaced[k].mass"``, ``.added_mass``, ``.centroid``, ``.radius_of_gyration``. If the rig has such parts, also
+          ``"support.damping"``, ``"pins[k].stiffness"``, ``"pins[k].damping"`` and ``"links[k].drag"``.
+        - for a cord also ``"tip_mass"``; for a held system the one given of ``"tension"`` and ``"span"``.
         - ``"gravity"``: not a datum of the system; needs `angular_speed`.
     mode : int
         Number of the mode, from 1 for the slowest; for a rig with flywheels among those of the direction of the speed; at a
@@ -78,7 +79,7 @@ def tune(
     between : (low, high), optional
         Range of the search, if one is needed. If left out: from a thousandth to a thousand times the present value (that of
         the whole chain for a massless link); for a centroid or a radius of gyration from 0 to the length of the link or
-        the present value.
+        the present value. For a tension this is said of its excess over the weight; a span is searched up to the length.
 
     Returns
     -------
@@ -91,7 +92,7 @@ def tune(
     ValueError
         If not exactly one of speed and height is given; if a number is out of its range, the path is unknown, a link
         would be inverted everywhere in the range, or there is no such mode; if a system held at a span comes without
-        `top_tension`, or another system with it.
+        `top_tension`, or another system with it; if `between` is given where no search is needed.
     TypeError
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
 
@@ -104,10 +105,10 @@ def tune(
     search then takes steps that cannot miss a value, because the relative change of a height has a bound (that of the
     mass, if no centre of gravity is above its pin). The range leaves out masses with which a link would be inverted.
 
-    The speeds of a chain, a cord and a held chain given by weight rise with the root of gravity, which gives one value.
+    The speeds of a chain, a cord and a held system given by weight rise with the root of gravity, which gives one value.
 
-    A rig has one stiffness, one momentum and one spin of a link for each speed, computed in double-double to 1e-15; the
-    modes of the new rig give the number of the mode.
+    A rig has at most one stiffness, one momentum and one spin of a link for each speed, computed in double-double to
+    1e-15; the modes of the new rig give the number of the mode.
 
     All other data of rigs, cords and held systems are searched: the speed is computed at 65 values and at extrema
     between them, and each pair of neighbours that encloses the wanted speed is bisected. The error bound is that of two

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scene files: reading, checks and answers. Needs msgspec."""
+"""Scene files: reading, checks, answers and reports. Needs msgspec."""

@@ -60,7 +60,7 @@ MEANINGS = {
     "that hangs on the axis also swings in a plane with the same period.",
     "shapes": "Each row is a shape in which the whole system turns about the vertical axis as one rigid figure, at any inclination.",
     "response": "The steady motion of each pin while the support is moved. Negative offsets are opposite to the drive.",
-    "swing": "Small oscillations in a plane, as a sum of the natural modes.",
+    "swing": "Small oscillations, as a sum of the natural modes.",
     "branches": "Each branch is a family of steady shapes that changes continuously with the speed.",
     "campbell": "Frequencies of small motion about the steady shape while it turns. Resonance is possible where one of them meets a "
     "multiple of the speed.",
@@ -403,7 +403,7 @@ def page_of(scene: Scene, answers: Mapping[str, Any], units: str = "deg", option
 <section id="terms">
 <h2>Terms</h2>
 <dl>{terms}<dt>Proved</dt><dd>Follows from rigorous error bounds or from counts that cannot miss a solution.</dd>
-<dt>Computed</dt><dd>Found numerically; the text says how the error is estimated.</dd></dl>
+<dt>Computed</dt><dd>Found numerically, without a proof.</dd></dl>
 </section>
 <section id="repeat">
 <h2>How to repeat</h2>

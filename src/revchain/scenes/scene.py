@@ -86,10 +86,11 @@ class Scene(Tables, frozen=True, weakref=True):
 
     Notes
     -----
-    The attributes are the tables of the file (`revchain schema` describes each key). Plain numbers are in SI units; text
-    such as ``"39.1396 inch"`` is converted by pint. The methods `modes`, `steady_shapes`, `response`, `swing`, `branches`,
-    `campbell` and `drag_shape` call the function of that name with the system, the gravity and the arguments of the
-    scene; `equilibria` calls the method of a `SleeveGovernor`, or returns the governor if no speed is given. Arguments given to a method replace those of the scene.
+    The attributes are the tables of the file (`revchain schema` describes each key). Plain numbers are in SI units;
+    text such as ``"39.1396 inch"`` is converted by pint. The methods `modes`, `steady_shapes`, `response`, `swing`,
+    `branches`, `campbell` and `drag_shape` call the function of that name with the system, the gravity and the
+    arguments of the scene; `equilibria` calls the method of a `SleeveGovernor`, or returns the governor if no speed is
+    given. Arguments given to a method replace those of the scene.
 
     Examples
     --------
@@ -192,7 +193,7 @@ class Scene(Tables, frozen=True, weakref=True):
         Returns
         -------
         Chain, Rig, Cord, Held or SleeveGovernor
-            The system. It is a rig if the scene has a support, flywheels, a fluid or inverted links.
+            The system. A chain is a rig if the scene has a support, flywheels, a fluid, pins, linear drag or inverted links.
 
         Raises
         ------

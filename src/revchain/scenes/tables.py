@@ -113,7 +113,7 @@ class Link(Table, frozen=True):
     """
 
     length: Annotated[Positive, says("Distance between its pins (m).")]
-    name: Annotated[str, says("Name in reports and pictures.")] = ""
+    name: Annotated[str, says("Name in paths, reports and pictures.")] = ""
     weight: Annotated[MaybeNotNegative, says("Weight (N); or give mass.")] = UNSET
     mass: Annotated[MaybeNotNegative, says("Mass (kg); or give weight.")] = UNSET
     kind: Annotated[
@@ -284,11 +284,13 @@ class AskModes(Table, frozen=True):
 
 
 class AskShapes(Table, frozen=True):
-    """Every steady shape (relative equilibrium) at one speed, at any inclination (`revchain.steady_shapes`)."""
+    """Steady shapes (relative equilibria) at one speed, at any inclination (`revchain.steady_shapes`)."""
 
     angular_speed: Annotated[MaybePositive, says("Speed (rad/s); or give conical_height.")] = UNSET
     conical_height: Annotated[MaybePositive, says("Conical height g / n^2 (m); or give angular_speed.")] = UNSET
-    hanging_only: Annotated[bool, says("Whether to leave out shapes with links above their pins.")] = True
+    hanging_only: Annotated[
+        bool, says("Leave out shapes with links above their pins (of a rig: inverted otherwise than in the scene).")
+    ] = True
     direction: Annotated[Literal[1, -1], says("Direction of rotation; only flywheels depend on it.")] = 1
     max_half_waves: Annotated[
         Count | UnsetType, says("Largest number of half waves between two held ends; 1 if left out.")
@@ -338,7 +340,7 @@ class AskSwing(Table, frozen=True):
 
 
 class AskBranches(Table, frozen=True):
-    """The bifurcation diagram: all branches of steady shapes up to a speed (`revchain.branches`)."""
+    """The bifurcation diagram: the branches of steady shapes up to a speed (`revchain.branches`)."""
 
     max_angular_speed: Annotated[MaybePositive, says("Largest speed (rad/s); or give min_conical_height.")] = UNSET
     min_conical_height: Annotated[
@@ -399,13 +401,13 @@ class AskExplain(Table, frozen=True):
 
 
 class Ask(Table, frozen=True):
-    """Questions to answer; the modes if there are none."""
+    """Questions to answer; if there are none the modes, of a governor the equilibria."""
 
     modes: Annotated[AskModes | UnsetType, says("Whirl speeds and mode shapes.")] = UNSET
     shapes: Annotated[AskShapes | UnsetType, says("Steady shapes at any inclination.")] = UNSET
     response: Annotated[AskResponse | UnsetType, says("Forced motion by a moving support.")] = UNSET
     swing: Annotated[AskSwing | UnsetType, says("Motion after release, or under a moving support.")] = UNSET
-    branches: Annotated[AskBranches | UnsetType, says("All branches of steady shapes.")] = UNSET
+    branches: Annotated[AskBranches | UnsetType, says("Branches of steady shapes.")] = UNSET
     campbell: Annotated[AskCampbell | UnsetType, says("Frequencies of small motion against the speed.")] = UNSET
     drag: Annotated[AskDrag | UnsetType, says("The steady shape of a carried chain in air.")] = UNSET
     equilibria: Annotated[AskEquilibria | UnsetType, says("Equilibria of a governor.")] = UNSET

@@ -47,17 +47,15 @@ class Study(Table, frozen=True):
         The scene, or the name of its file, in the folder of the study.
     vary : dict of str to Vary
         Values by path into the scene, such as ``links[load].mass`` or ``links[0].mass``, with the name of a link or its
-        index in the order of the file. Grids are combined, each value with each. Random
-        numbers are drawn for each point.
+        index in the order of the file. Grids are combined, each value with each. Random numbers are drawn for each point.
     samples : int
         Number of points with random numbers at each point of the grids.
     seed : int
         Seed of the random numbers.
     find : list of {"modes", "shapes", "response", "campbell", "drag", "equilibria"}, optional
         Questions to answer. ``"angular_speed"``, ``"rpm"``, ``"frequency"`` and ``"period"`` store the speeds of modes in
-        these units; with ``"modes"`` beside it also all else of modes. If left out,
-        those for which the scene has a table; if it has none, its modes, or the
-        equilibria of a governor.
+        these units; with ``"modes"`` beside it also all else of modes. If left out, those for which the scene has a
+        table; if it has none, its modes, or the equilibria of a governor.
     max_shapes : int
         Largest number of stored steady shapes, or equilibria of a governor, of each point.
     scatter : Scatter, optional

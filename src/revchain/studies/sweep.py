@@ -87,6 +87,8 @@ def sweep(
         is also a ValueError). Finished chunks stay.
     ValueError
         If `out` has another extension, or a number is below 1.
+    TypeError
+        If `executor` is not an executor, or `progress` is not callable.
     ImportError
         If xarray or a package that writes `out` is missing; the message says how to install it.
 

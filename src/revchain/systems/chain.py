@@ -35,8 +35,8 @@ class Chain(System):
     mass : array_like, shape (N,) or scalar
         Mass of each link, kg, not negative. A link of mass 0 is a massless thread; the lowest link must have mass.
     weight : array_like, shape (N,) or scalar
-        Weight of each link, instead of `mass`. Any unit will do, because speeds depend only on the ratios. Forces in
-        results are in this unit; with `mass` they are in newtons.
+        Weight of each link, instead of `mass`. For a chain alone any unit will do, because its speeds depend only on the
+        ratios. Forces in results are in this unit; with `mass` they are in newtons.
     length : array_like, shape (N,) or scalar
         Distance between the pins of each link, m, positive.
     centroid : array_like, shape (N,) or scalar, optional
@@ -51,7 +51,7 @@ class Chain(System):
         Order of the links in the arrays you give. Indices in paths (``links[0].mass``) and tables count in this order.
         Arrays of results, and of flywheels and other fittings, begin at the free end.
     names : sequence of str, optional
-        A name for each link, in the order given, for reports and pictures.
+        A name for each link, in the order given, for paths, reports and pictures.
 
     Raises
     ------
@@ -61,8 +61,8 @@ class Chain(System):
         If a number is not real and finite, or has a unit of another kind; if arrays have more than one dimension or
         different lengths, or there are no links; if a length is not positive, a mass is negative, the lowest link has
         no mass, or the sum of the masses overflows; if a radius of gyration is imaginary, or a link would be inverted;
-        if `centroid` is given without exactly one of `pendulum_length` and `radius_of_gyration`; if `order` is any
-        other word.
+        if `centroid` is given without exactly one of `pendulum_length` and `radius_of_gyration`; if not exactly one of
+        `mass` and `weight` is given; if `order` is another word; if `names` does not have a text for each link.
 
     Notes
     -----
@@ -176,7 +176,7 @@ class Chain(System):
         Raises
         ------
         ValueError
-            If `count` is below 1, or `length` or `weight` is not positive and finite.
+            If `count` is below 1, the length, weight or mass is not positive and finite, or both mass and weight are given.
 
         Notes
         -----
@@ -216,7 +216,7 @@ class Chain(System):
         Raises
         ------
         ValueError
-            If `count` is below 1, or `length` or `weight` is not positive and finite.
+            If `count` is below 1, the length, weight or mass is not positive and finite, or both mass and weight are given.
 
         Notes
         -----
@@ -261,8 +261,8 @@ class Chain(System):
         Raises
         ------
         ValueError
-            If `count` is below 1, `length` or `weight` is not positive and finite, the exponent is out of range, or it
-            leaves the lowest link a weight below 1e-292.
+            If `count` is below 1, the length, weight or mass is not positive and finite, both mass and weight are given,
+            the exponent is out of range, or it leaves the lowest link a weight below 1e-292.
 
         Notes
         -----
@@ -295,7 +295,7 @@ class Chain(System):
 
     @property
     def mode_count(self) -> int:
-        """Number of modes: `size`, minus one for each massless link that has no motion of its own."""
+        """Number of modes: `size`, minus one for each pin without inertia, as between massless threads."""
         return self._compiled.mode_count
 
     @property

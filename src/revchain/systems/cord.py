@@ -49,12 +49,12 @@ class Cord(System):
         corners, and at the free end it may vanish or grow as a power. A clasp or another narrow part is found if it is
         at least a thousandth of the length wide; narrower ones may lie between the places where the function is called:
         give their ends as `breaks`. If `mass` or `weight` is given, the function is scaled to it; else it is the mass
-        per length, kg/m (with `tip_weight`, the weight per length).
+        per length, kg/m (with `tip_weight` or `weights`, the weight per length).
     tip_mass, tip_weight : float, optional
         Mass (kg) or weight (N) of a point mass or bob at the free end, in the same quantity as the cord.
     masses, weights : mapping of float to float, optional
-        Point masses on the cord (kg), such as clasps: ``{s: mass}`` with s the distance from the free end, m, or
-        ``{"50 cm": "20 g"}``. Not part of `mass`. Masses at one place, such as 0.5 and ``"50 cm"``, are added.
+        Point masses on the cord, such as clasps, kg, or their weights, N: ``{s: mass}`` with s the distance from the free
+        end, m, or ``{"50 cm": "20 g"}``. Not part of `mass`. Masses at one place, such as 0.5 and ``"50 cm"``, are added.
     breaks : array_like, shape (B,), optional
         Distances from the free end at which a density function jumps or has a corner, m.
     tip_centroid, tip_radius_of_gyration : float, optional
@@ -65,10 +65,11 @@ class Cord(System):
     Raises
     ------
     ValueError
-        If a number is out of its range, masses are mixed with weights, a mass or break does not lie between the ends, breaks
-        are given without a function, a radius of gyration without a centroid, a bob is longer than 1e5 cords, or a
-        density function is not positive inside the cord, has too many jumps and corners, or has an integral that cannot
-        be resolved to 1e-6. The last two messages name the place; use a `Chain` of many short links for such a cord.
+        If a number is out of its range, masses are mixed with weights, a mass or break does not lie between the ends,
+        breaks are given without a function, a radius of gyration without a centroid, a centroid without a tip, a bob is
+        longer than 1e5 cords, or a density function is not positive inside the cord, has too many jumps and corners, or
+        has an integral that cannot be resolved to 1e-6. The last two messages name the place; use a `Chain` of many
+        short links for such a cord.
 
     Notes
     -----

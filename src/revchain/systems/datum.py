@@ -40,8 +40,8 @@ class Datum:
     floor : float or None
         Lower limit of all values; None if they may have either sign.
     ceiling : float
-        Upper end of a search with equal steps; infinite if the search is by ratio. If the present value lies beyond it,
-        the search ends there.
+        Upper end of a search with equal steps; infinite if the search is by ratio. If the present value is greater, the
+        search ends at that value.
     rate : (str, ndarray) or None
         Name of the field of the sensitivity, and a factor for each link: the derivative by this datum is the sum of field
         times factor. None if no field has it.
@@ -78,7 +78,7 @@ class Datum:
 def datum_at(caller: str, system: Any, path: Any, gravity: float, argument: str = "vary") -> Datum:
     """Return the datum at a path of the system, with a link by its name or by its index in the caller's order.
 
-    An unknown path raises a ValueError that lists the known ones.
+    An unknown path raises a ValueError.
     """
     said, path = path, _counted(caller, system, path, argument)
     name, link = path, None

@@ -34,7 +34,8 @@ class Drag(_Fitting):
     Raises
     ------
     ValueError
-        If neither diameter nor area is given, a number is not finite or is negative, or a list is empty.
+        If neither diameter nor area is given, a number is not finite or is negative, a list is empty, or `density` is a
+        list.
 
     References
     ----------

@@ -22,7 +22,7 @@ class Held(System):
     Parameters
     ----------
     system : Chain or Cord
-        The chain or cord; its free end becomes the lower end. A cord must be uniform and without a tip.
+        The chain or cord; its free end becomes the lower end. A cord must be uniform, without tip and point masses.
     span : float
         Distance between the two ends along the axis, m, positive, less than the length.
     tension : float
@@ -38,10 +38,10 @@ class Held(System):
     ------
     ValueError
         If not exactly one of `span` and `tension` is given; if a number is out of its range; if the span, or the
-        distance between firm ends, is not less than the length; if a radius comes with a tension; if a cord is not
-        uniform, or comes with `lower` or `upper`.
+        distance between firm ends, is not less than the length; if a radius comes with a tension; if a support
+        rolls freely or has a dashpot; if a cord is not uniform, carries masses, or comes with `lower` or `upper`.
     TypeError
-        If `system` is not a `Chain` or a `Cord`, or `lower` or `upper` is not a `Support`.
+        If `system` is not a `Chain` or a `Cord`, `lower` or `upper` is not a `Support`, or `weightless` is not a bool.
 
     Notes
     -----

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A chain and its fittings: a support that yields or is carried round, flywheels, a fluid, inverted links."""
+"""A chain and its fittings: a support, flywheels, a fluid, springs and dashpots, linear drag, inverted links."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ def _fitting(kind: type[_Fitting], given: dict[str, Any]) -> _Fitting:
 class Support(_Fitting):
     """The support of the uppermost pin: firm, on a horizontal spring, a free trolley, or moving in a circle.
 
-    A rig without a support hangs from a firm point on the axis.
+    A rig without a support hangs from a firm point on the axis. An end of a `Held` chain has such a support, too.
 
     Parameters
     ----------
@@ -108,8 +108,8 @@ class Support(_Fitting):
     Raises
     ------
     ValueError
-        If a number is not finite or is out of its range, if a mass moves with a pin of infinite stiffness, or if a
-        trolley that rolls freely has a radius.
+        If a number is out of its range, if both mass and weight are given, if a mass or a dashpot comes with infinite
+        stiffness, or if a trolley that rolls freely has a radius.
 
     References
     ----------
@@ -211,13 +211,14 @@ class Pin(_Fitting):
         Torque over the angle between the links, N m/rad; the straight chain is relaxed. For a chain given by weight in the
         unit of its weights times m.
     damping : array_like
-        Torque over the rate of that angle, N m s/rad, of links that do not turn about their own axes. About steady shapes
-        (`SteadyShape.stability`) links also turn about their own axes, so that the least energy is lost.
+        Torque over the rate of that angle, N m s/rad (for a chain given by weight in the unit of its weights times m
+        s), of links that do not turn about their own axes. About steady shapes (`SteadyShape.stability`) links also
+        turn about their own axes, so that the least energy is lost.
 
     Raises
     ------
     ValueError
-        If a number is not finite or is negative.
+        If a number is not finite or is negative, or an array is empty.
 
     Notes
     -----
@@ -370,11 +371,11 @@ class Displaced(_Fitting):
     Raises
     ------
     ValueError
-        If a number is not finite or is out of its range.
+        If a number is not finite or is out of its range, or masses are mixed with weights.
 
     Notes
     -----
-    Fluid of mass 0 has no effect; `sensitivity` by its mass is that of fluid at the position given.
+    Fluid of mass 0 without added mass has no effect; `sensitivity` by its mass is that of fluid at the position given.
     Cost: O(N), when the rig is made. Source: Greenhill (1908), section 2 (6), for Stokes's float.
 
     Examples
@@ -419,7 +420,7 @@ class Displaced(_Fitting):
 
 
 class Rig(System):
-    """A chain with a support, flywheels, a fluid or inverted links; parts left out cost no time.
+    """A chain with a support, flywheels, a fluid, springs and dashpots, linear drag or inverted links.
 
     Parameters
     ----------
@@ -448,8 +449,8 @@ class Rig(System):
     Raises
     ------
     ValueError
-        If a number is out of its range, an array does not have one number for each link, or masses are mixed with
-        weights; the message names the link.
+        If a number is out of its range, an array does not have one number for each link, masses are mixed with weights,
+        or fluid that turns has added mass.
     TypeError
         If an argument is of another class.
 
@@ -587,7 +588,7 @@ class Rig(System):
 
     @property
     def is_damped(self) -> bool:
-        """Whether the support or a pin has a dashpot, or a link linear drag: motions then decay."""
+        """Whether the support or a pin has a dashpot, or a link linear drag."""
         return self.support.damping > 0 or self.drag is not None or (self.pins is not None and "damping" in self.pins._given)
 
     @property

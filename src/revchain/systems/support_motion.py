@@ -42,7 +42,9 @@ class SupportMotion(_Fitting):
     ------
     ValueError
         If not exactly one of the four is given; if a number is not finite, lists differ in length or have fewer than two
-        entries, times are negative or do not ascend, or a velocity or an offset jumps.
+        entries, times are negative or do not ascend, or a velocity or an offset jumps; if `rests` is false without offsets.
+    TypeError
+        If `rests` is not a bool.
 
     Notes
     -----

@@ -147,7 +147,7 @@ class System(Unchangeable):
         Returns
         -------
         dict
-            The data. They can be written as JSON unless a number is infinite.
+            The data. They can be written as JSON.
 
         Examples
         --------

@@ -151,7 +151,10 @@ def has_units(value: Any) -> bool:
 
 
 def in_si(caller: str, name: str, value: Any, quantity: str = "") -> Any:
-    """`value` with all its numbers in SI units; a ValueError if a unit does not fit the quantity, or what `name` tells."""
+    """`value` with all its numbers in SI units; a ValueError if a unit does not fit the quantity.
+
+    `name` tells the quantity if `quantity` is empty.
+    """
     value = unpacked(value)
     if isinstance(value, list | tuple):
         return [in_si(caller, name, item, quantity) for item in value]
