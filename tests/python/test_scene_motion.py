@@ -113,9 +113,9 @@ CORD = "[cord]\nlength = 1\nmass = 1\n"
 KINDS = {  # what hangs, and the questions it has no answer for
     "chain": (LINK, ""),
     "rig": (LINK + "[support]\nstiffness = 50\n", ""),
-    "cord": (CORD, "response swing branches"),
-    "bent chain": (LINK + "[held]\nspan = 1\n", "run modes explain response swing branches"),
-    "bent cord": (CORD + "[held]\nspan = 0.8\n", "run modes explain response swing branches"),
+    "cord": (CORD, "response"),
+    "bent chain": (LINK + "[held]\nspan = 1\n", "run modes explain response swing"),
+    "bent cord": (CORD + "[held]\nspan = 0.8\n", "run modes explain response swing"),
     "taut chain": (LINK + "[held]\ntension = 100\n", "response swing branches"),
     "taut chain without gravity": (LINK + "[held]\ntension = 100\nweightless = true\n", "response swing branches"),
     "taut cord": (CORD + "[held]\ntension = 100\n", "response swing branches"),

@@ -112,7 +112,7 @@ JointedNumbers<T> jointed_numbers(std::string_view place, const JointedLinks<T>&
     if (!(hung > S(T(0))))
         throw_invalid(place,
                       "the upper link would stand, not hang: upper weight x upper centroid + upper "
-                      "length x lower weight must be positive, with an upper centroid of",
+                      "length x lower weight must be positive; upper centroid",
                       links.upper_centroid);
     const CompoundLink<S> lower{S(links.lower.centroid * unit),
                                 S(links.lower.radius_of_gyration * unit)};

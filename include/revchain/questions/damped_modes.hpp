@@ -70,7 +70,7 @@ DampedModes damped_modes(const Rig& rig, const DampedModesOptions& options) {
     if (options.count && *options.count < 1)
         throw_invalid(place, "count must be at least 1", *options.count);
     if (rig.size() > 1000)
-        throw_invalid(place, "a rig with dashpots may have at most 1000 links, not", rig.size());
+        throw_invalid(place, "a rig with dashpots may have at most 1000 links", rig.size());
     if (rig.fluid() == Fluid::turning && rig.is_damped())
         throw_invalid(place, "dashpots and a fluid that turns are not solved together; links",
                       rig.size());
