@@ -926,6 +926,17 @@ def test_what_a_batch_refuses_has_no_numbers():
     assert np.array_equal(np.isnan(found["conical_height"]).all(axis=1), refused(found))
 
 
+def test_rigs_with_damping_have_speeds_and_no_heights():
+    links = [{"mass": 1.0, "length": 1.0, "pin": {"damping": 0.1}}, {"mass": 2.0, "length": 0.5}]
+    asked = study({"links": links}, {"links[0].pin.damping": words(0.1, 0.2)})
+    found = rc.sweep(asked)
+    for k in range(2):
+        modes = asked.scene_at(k).modes()
+        assert np.array_equal(found["angular_speed"][k], modes.angular_speed)
+        assert np.array_equal(found["error_bound"][k], modes.error_bound)
+    assert np.isnan(found["conical_height"]).all()
+
+
 def test_all_points_are_one_kind_of_system():
     wheel = {"mass": 0.1, "radius_of_gyration": 0.1, "spin": 0}
     links = [{"mass": 1, "length": 0.5, "flywheel": wheel}, {"mass": 2, "length": 0.7}]

@@ -39,9 +39,14 @@ class Output(NamedTuple):
     only: str = ""  # "rig", "spinning" (a rig with momentum), "still" (without), "still rig", "stops" or "turning"; or all
 
 
+def _of_modes(name: str, modes: Any) -> Any:
+    """Speeds, heights or bounds of the modes; nothing for the heights of a rig with damping, which has none."""
+    return getattr(modes, name, ())
+
+
 def _turning(name: str, sign: int, modes: Any) -> Any:
     """The sizes of speeds, heights or bounds of the modes that turn in one direction."""
-    return np.abs(getattr(modes, name)[modes.direction == sign])
+    return np.abs(getattr(modes, name)[modes.direction == sign]) if hasattr(modes, name) else ()
 
 
 def _of_each(name: str, link: int, shapes: Any) -> list[Any]:
@@ -75,7 +80,10 @@ WAYS = {"angular_speed": "rad/s", "rpm": "rpm", "frequency": "Hz", "period": "s"
 _OF_STOPS = {"lowest_speed": "rad/s", "highest_speed": "rad/s", "lift": "m", "sensitiveness": "", "insensitiveness": ""}
 _OF_EQUILIBRIA = {"inclination": "rad", "lift": "m", "ball_radius": "m", "period": "s"}
 OUTPUTS = {
-    **{name: Output("modes", attrgetter(name), _OF_MODES[name], "f8", "mode", "still") for name in list(_OF_MODES)[:3]},
+    **{
+        name: Output("modes", partial(_of_modes, name), _OF_MODES[name], "f8", "mode", "still")
+        for name in list(_OF_MODES)[:3]
+    },
     "speed_error_bound": Output("modes", attrgetter("speed_error_bound"), "", "f8", "mode", "still rig"),
     **{
         f"{turn}_{name}": Output("modes", partial(_turning, name, sign), unit, "f8", "mode", only)
