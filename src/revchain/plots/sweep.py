@@ -60,7 +60,7 @@ def plot_sweep(found: Dataset, name: str | None = None, ax: Axes | None = None, 
     Raises
     ------
     ValueError
-        If there are more than two grids, or words varied.
+        If there are more than two grids, or words varied; if `name` is not that of a result, or `speed` is another unit.
 
     Examples
     --------

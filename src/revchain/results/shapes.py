@@ -118,7 +118,8 @@ class Stability(
         fact=True,
     )
     margin: Field[float] = Field(
-        "Growth rate up to which the errors leave the verdict open: the largest `exponent_error`, or another bound for cords.", fact=True
+        "Growth rate up to which the errors leave the verdict open: the largest `exponent_error`, or another bound for cords.",
+        fact=True,
     )
     negative_directions: Field[int] = Field(
         "Number of negative directions of the energy in the turning frame, at constant angular momentum in the free "
@@ -248,8 +249,9 @@ class SteadyShape(
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2; 0 without gravity.", fact=True)
     direction: Field[int] = Field("Direction of rotation, 1 or -1; only a rig with flywheels depends on it.", fact=True)
     moment_of_inertia: Field[float] = Field(
-        "Moment of inertia about the axis, with masses on springs of held ends, kg m^2; for a system given by weight, "
-        "in weight times length squared. Not for hanging cords.",
+        "Moment of inertia about the axis, with the masses on springs at its ends, kg m^2; for a system given by weight, in "
+        "weight times length squared. Still fluid adds its added mass, turning fluid subtracts the mass displaced. Not for "
+        "hanging cords.",
         fact=True,
     )
     effective_energy: Field[float] = Field(
@@ -690,9 +692,9 @@ class SteadyShapes(Results[SteadyShape], Moving, row="shape", title="{_heading}"
         fact=True,
     )
     complete: Field[bool] = Field(
-        "Whether it is proved that no shape is missing among those searched for: for a chain or rig the hanging "
-        "shapes, or with ``hanging_only=False`` all shapes; for a held system shapes with up to `max_half_waves` half "
-        "waves. False if both ends of a held chain are off the axis: shapes may then leave their plane, and such "
+        "Whether it is proved that no shape is missing among those searched for: for a chain or rig the shapes in its own "
+        "posture, or with ``hanging_only=False`` all shapes; for a hanging cord all shapes; for a held system shapes with up "
+        "to `max_half_waves` half waves. False if both ends of a held chain are off the axis: shapes may then leave their plane, and such "
         "shapes are not searched for. False if only one branch was searched (`mode`).",
         fact=True,
     )
