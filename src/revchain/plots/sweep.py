@@ -106,7 +106,7 @@ def plot_sweep(found: Dataset, name: str | None = None, ax: Axes | None = None, 
 
 
 def in_speed_unit(found: Dataset, unit: str | None) -> Dataset:
-    """The results with their speeds in a unit of `units.SPEED_UNITS`; unchanged for None."""
+    """The results with their speeds in a unit of `units.SPEED_UNITS`; unchanged for None and rad/s."""
     if unit in (None, "rad/s"):
         return found
     speeds = [key for key, array in found.variables.items() if array.attrs.get("units") == "rad/s"]

@@ -210,7 +210,8 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
     arc: Field[Floats] = Field(
         "Arc length of the branch from its first point, dimensionless: the root of the mean square of the links' ``d "
         "arsinh(tan(inclination))`` (of a cord: that of its free end) plus the square of ``d log(conical_height)``, "
-        "summed up. Not for held systems.",
+        "summed up. A support that yields counts as one more link, its offset over the total length as the tangent. Not for "
+        "held systems.",
         axes=(),
     )
     inclination: Field[Any] = Field(

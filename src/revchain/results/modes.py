@@ -382,7 +382,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         otherwise=lambda m: 0,
     )
     other: Field[OtherModes] = Field(
-        "The solutions that are not steady motions, computed when first read. Cost: 0.6 microseconds per solution and link.",
+        "The solutions that are not steady motions, computed when first read; none with dashpots. Cost: 0.6 microseconds per "
+        "solution and link.",
         lambda m: _others(m),
         fact=True,
     )

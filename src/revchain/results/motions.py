@@ -285,7 +285,7 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
     )
     error_bound: Field[Floats | None] = Field(
         "Proved bound of the rounding error of each offset as a sum of the modes used, m, shape (T,); infinite if a link is "
-        "inverted. It grows with time only after about 1e9 swings. None for a cord.",
+        "inverted. It grows with time only after about 1e9 swings. None for a cord, or if there is an `error_estimate`.",
         heading="error bound",
         unit="m",
     )
@@ -342,8 +342,8 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
     )
     amplitude: Field[Complex] = Field(
         "Coefficients, shape (k,), in offset = sum of ``shape * amplitude * exp(1j * angular_frequency * time)``; without "
-        "momentum the real part of this sum. With an `error_estimate` after `motion_end`, from the resting place, with "
-        "``exp(exponent * (time - motion_end))``.",
+        "momentum the real part of this sum. Where there is an `error_estimate`: those of the offsets from the resting place "
+        "after `motion_end`, with ``exp(exponent * (time - motion_end))``.",
         fact=True,
     )
     start: Field[Numbers | None] = Field(

@@ -269,7 +269,7 @@ class SteadyShape(
     )
     span: Field[float] = Field("Distance between the two ends of a held system along the axis, m.", fact=True)
     support_offset: Field[float] = Field(
-        "Offset of the upper end from the axis, m; it is 0 unless a `Rig` or the arms of a held chain move it.",
+        "Offset of the upper end from the axis, m; 0 for a firm end on the axis.",
         lambda s: float(s.offset[-1]),
         fact=True,
     )
