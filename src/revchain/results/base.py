@@ -302,8 +302,8 @@ class Result(Unchangeable):
         Returns
         -------
         xarray.Dataset
-            The data set, with arrays of any number of axes. The attribute ``system`` holds the system, if the result has one,
-            in numbers as JSON.
+            The data set, with arrays of any number of axes. The attribute ``system`` holds the system, if the result has
+            one, in numbers as JSON.
 
         Raises
         ------

@@ -122,7 +122,7 @@ def _complex(height: complex) -> str:
 
 
 def _of_height(name: str, of_speed: Callable[[Any], Any]) -> Callable[[Modes], Numbers]:
-    """A function of modes: `_core.conical_pendulum_NAME` of heights; for rigs and extended precision `of_speed` of speeds."""
+    """A function of modes: `_core.conical_pendulum_NAME` of heights; for rigs and longdouble `of_speed` of speeds."""
     compiled: Callable[[Floats, Any], Floats] = getattr(_core, f"conical_pendulum_{name}")
 
     def compute(modes: Modes) -> Numbers:
@@ -174,11 +174,12 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
 
     Notes
     -----
-    Heights of a cord follow from zeros of Bessel functions, Greenhill (1908), section 4: of ``J0`` for a uniform cord, of
-    ``Jp`` for a density s^p, of a cross product of ``J`` and ``Y`` for a uniform cord with a tip or held at both ends. Those of a
-    weightless cord are those of a string. All others are computed by power series. Accuracy (``error_bound``): 3 ulp, 2 ulp with a tip, 4e-15 by power series. Nodes and vertical
-    points: 5 ulp (uniform), 3 ulp (a power), else 1e-15 of the length. Cost: 0.1 to 5 microseconds for a height in closed
-    form, 0.4 to 3 milliseconds for each mode up to the last by power series; no more for a node or a vertical point.
+    Heights of a cord follow from zeros of Bessel functions, Greenhill (1908), section 4: of ``J0`` for a uniform cord,
+    of ``Jp`` for a density s^p, of a cross product of ``J`` and ``Y`` for a uniform cord with a tip or held at both
+    ends. Those of a weightless cord are those of a string. All others are computed by power series. Accuracy
+    (``error_bound``): 3 ulp, 2 ulp with a tip, 4e-15 by power series. Nodes and vertical points: 5 ulp (uniform), 3 ulp
+    (a power), else 1e-15 of the length. Cost: 0.1 to 5 microseconds for a height in closed form, 0.4 to 3 milliseconds
+    for each mode up to the last by power series; no more for a node or a vertical point.
 
     Examples
     --------
@@ -232,9 +233,9 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         axes=(),
     )
     angular_speed: Field[Numbers] = Field(
-        "Whirl speed of each mode, ``sqrt(gravity / conical_height)``, rad/s, shape (k,), negative for backward modes. With "
-        "dashpots it is the imaginary part of `exponent`. For a hanging chain it is also the natural angular frequency of its swing in a plane. longdouble with "
-        "``precision='extended'``, else float64.",
+        "Whirl speed of each mode, ``sqrt(gravity / conical_height)``, rad/s, shape (k,), negative for backward modes. "
+        "With dashpots it is the imaginary part of `exponent`. For a hanging chain it is also the natural angular "
+        "frequency of its swing in a plane. longdouble with ``precision='extended'``, else float64.",
         otherwise=_of_height("angular_speed", lambda speed: speed),
         heading="speed",
         unit="rad/s",
@@ -255,9 +256,10 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         unit="s",
     )
     speed_error_bound: Field[Floats] = Field(
-        "Bound of the relative error of each angular speed, shape (k,), for the given gravity, proved if `error_bound` is; also "
-        "of frequency and period, which for a rig have up to 4.5e-16 more. With dashpots it is larger than `error_bound` where the motion decays "
-        "faster than it oscillates; 0 where the motion is proved not to oscillate, so that the speed is exactly 0.",
+        "Bound of the relative error of each angular speed, shape (k,), for the given gravity, proved if `error_bound` is; "
+        "also of frequency and period, which for a rig have up to 4.5e-16 more. With dashpots it is larger than "
+        "`error_bound` where the motion decays faster than it oscillates; 0 where the motion is proved not to oscillate, "
+        "so that the speed is exactly 0.",
         otherwise=lambda m: _speed_bound(m.error_bound.astype(np.float64)),
         axes=(),
     )
@@ -282,8 +284,9 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         shown=lambda m: _texts(m.nodes),
     )
     exponent: Field[Complex] = Field(
-        "Exponents s of the motions ``shape * exp(s * t)``, 1/s, shape (k,). The imaginary part is the angular speed. "
-        "With dashpots the real part is negative for a motion that decays, and modes are numbered by the size of s; else it is 0.",
+        "Exponents s of the motions ``shape * exp(s * t)``, 1/s, shape (k,). The imaginary part is the angular speed. With "
+        "dashpots the real part is negative for a motion that decays, and modes are numbered by the size of s; else it is "
+        "0.",
         lambda m: 1j * m.angular_speed.astype(float),
         axes=(),
         unit="1/s",
@@ -312,8 +315,9 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         otherwise=lambda m: 0,
     )
     residual: Field[Numbers | None] = Field(
-        "Residual of each shape, shape (k,): largest unbalanced force at a pin divided by the largest sum of the magnitudes of "
-        "the forces at a pin. None with dashpots, and for cords, whose shapes are closed forms or power series.",
+        "Residual of each shape, shape (k,): largest unbalanced force at a pin divided by the largest sum of the "
+        "magnitudes of the forces at a pin. None with dashpots, and for cords, whose shapes are closed forms or power "
+        "series.",
         otherwise=lambda m: None,
         axes=(),
     )
@@ -322,10 +326,11 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         lambda m: np.linspace(0.0, m._require_cord("arc_length").length, 201),
     )
     shape: Field[Numbers] = Field(
-        "Offsets of the pins from the axis, shape (k, N + 1), free end first, support last. The largest magnitude of each mode "
-        "is 1, and the free end (of a held chain the lowest inner pin) is positive. With dashpots they are complex, and the largest is 1: the real part is the shape at "
-        "the instant when that pin is farthest out. For a cord: offsets of the places `arc_length`, shape (k, 201); that of the free "
-        "end is 1. For a cord held at both ends the largest, at the lowest vertical point, is 1.",
+        "Offsets of the pins from the axis, shape (k, N + 1), free end first, support last. The largest magnitude of each "
+        "mode is 1, and the free end (of a held chain the lowest inner pin) is positive. With dashpots they are complex, "
+        "and the largest is 1: the real part is the shape at the instant when that pin is farthest out. For a cord: "
+        "offsets of the places `arc_length`, shape (k, 201); that of the free end is 1. For a cord held at both ends the "
+        "largest, at the lowest vertical point, is 1.",
         otherwise=lambda m: m.along(m.arc_length),
         axes=("pin",),
     )
@@ -382,8 +387,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         otherwise=lambda m: 0,
     )
     other: Field[OtherModes] = Field(
-        "The solutions that are not steady motions, computed when first read; none with dashpots. Cost: 0.6 microseconds per "
-        "solution and link.",
+        "The solutions that are not steady motions, computed when first read; none with dashpots. Cost: 0.6 microseconds "
+        "per solution and link.",
         lambda m: _others(m),
         fact=True,
     )
@@ -399,8 +404,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         fact=True,
     )
     sensitivity: Field[Sensitivity] = Field(
-        "Derivatives with respect to each datum. Not for held chains, cords with a bob, and rigs with springs at pins, dashpots "
-        "or linear drag. Cost: 0.6 microseconds per link and mode.",
+        "Derivatives with respect to each datum. Not for held chains, cords with a bob, and rigs with springs at pins, "
+        "dashpots or linear drag. Cost: 0.6 microseconds per link and mode.",
         lambda m: _sensitivity(m),
     )
     description: Field[str] = Field("The system in words.", lambda m: m.system.describe(), fact=True)
@@ -608,8 +613,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         Returns
         -------
         ndarray, shape (k,) or (k, places)
-            Slopes in 1/m of the offsets that `along` returns; ``-1 / conical_height`` at a free end without a bob. Accuracy (relative to
-            the largest slope) and cost are those of `along`.
+            Slopes in 1/m of the offsets that `along` returns; ``-1 / conical_height`` at a free end without a bob. Accuracy
+            (relative to the largest slope) and cost are those of `along`.
 
         Raises
         ------

@@ -76,7 +76,8 @@ class Response(Result, Moving):
         "close to a resonance, infinite at a resonance. None if there is an estimate.",
     )
     error_estimate: Field[Floats | None] = Field(
-        "With springs at pins, dashpots, a trolley, an acceleration or a force: estimate of that error, shape (...). Else None.",
+        "With springs at pins, dashpots, a trolley, an acceleration or a force: estimate of that error, shape (...). Else "
+        "None.",
         lambda r: None,
         part=True,
     )
@@ -290,8 +291,8 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
         unit="m",
     )
     error_estimate: Field[Floats | None] = Field(
-        "With springs at pins, dashpots, linear drag, a trolley or a moving support: estimate of the error of each offset, m, "
-        "shape (T,). Else None.",
+        "With springs at pins, dashpots, linear drag, a trolley or a moving support: estimate of the error of each offset, "
+        "m, shape (T,). Else None.",
         lambda s: None,
         part=True,
         axes=(),
@@ -330,7 +331,9 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
         part=True,
         fact=True,
     )
-    residual_sway: Field[float | None] = Field("`sway` of the free end, m.", lambda s: None if s.sway is None else float(s.sway[0]))
+    residual_sway: Field[float | None] = Field(
+        "`sway` of the free end, m.", lambda s: None if s.sway is None else float(s.sway[0])
+    )
     energy: Field[Floats | None] = Field(
         "Energy of each mode, J (weight times length), shape (k,); it is constant. It is negative if momentum keeps an "
         "inverted link from falling. None where there is an `error_estimate`.",
@@ -342,8 +345,8 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
     )
     amplitude: Field[Complex] = Field(
         "Coefficients, shape (k,), in offset = sum of ``shape * amplitude * exp(1j * angular_frequency * time)``; without "
-        "momentum the real part of this sum. Where there is an `error_estimate`: those of the offsets from the resting place "
-        "after `motion_end`, with ``exp(exponent * (time - motion_end))``.",
+        "momentum the real part of this sum. Where there is an `error_estimate`: those of the offsets from the resting "
+        "place after `motion_end`, with ``exp(exponent * (time - motion_end))``.",
         fact=True,
     )
     start: Field[Numbers | None] = Field(

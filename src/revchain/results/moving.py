@@ -28,7 +28,7 @@ class Moving:
 
         Modes and steady shapes turn about their axes, each at its own speed. A branch is gone through from its first
         point to its last, a response at several speeds from the least to the greatest. A swing runs from the first to the
-        last of its times. Offsets of small amplitude have a scale of their own; steady shapes and branches are true to scale.
+        last of its times. Offsets of small amplitude have their own scale; steady shapes and branches are true to scale.
 
         Parameters
         ----------
@@ -40,11 +40,11 @@ class Moving:
             six if left out.
         time_scale : float, optional
             Seconds of motion in one second of film: 1 is real time, 0.1 ten times slower. If left out, it is chosen so
-            that the fastest figure takes about 0.8 s or more for a turn; of a swing 1, unless it takes more than 10 s. The film
-            says what it is.
+            that the fastest figure takes about 0.8 s or more for a turn; of a swing 1, unless it takes more than 10 s. The
+            film says what it is.
         duration : float, optional
-            Seconds of film. If left out: one turn of the slowest figure, or the whole swing, at most 10 s; 12 s for a branch or
-            a response at several speeds.
+            Seconds of film. If left out: one turn of the slowest figure, or the whole swing, at most 10 s; 12 s for a branch
+            or a response at several speeds.
         frames_per_second : float
             Frame rate of ``.gif`` and ``.mp4``, 0.1 to 1000. A GIF counts hundredths of a second and takes the nearest rate.
         progress : callable, optional

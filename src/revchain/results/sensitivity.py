@@ -211,8 +211,8 @@ class Uncertainty(Result, row="mode", title="Standard deviations"):
     )
     period: Field[Floats] = Field("Standard deviation of each period, s, shape (k,).", heading="of the period", unit="s")
     share: Field[Sensitivity] = Field(
-        "Part of each variance that comes from each datum, in the form of a `Sensitivity`; the parts of a mode add up to 1, or "
-        "to 0 if it is exact. With a covariance a part may be negative."
+        "Part of each variance that comes from each datum, in the form of a `Sensitivity`; the parts of a mode add up to "
+        "1, or to 0 if it is exact. With a covariance a part may be negative."
     )
     largest: Field[tuple[str, ...]] = Field(
         "For each mode the path of the datum that contributes most, such as ``'links[load].mass'``; empty if the mode is "

@@ -118,7 +118,8 @@ class Stability(
         fact=True,
     )
     margin: Field[float] = Field(
-        "Growth rate up to which the errors leave the verdict open: the largest `exponent_error`, or another bound for cords.",
+        "Growth rate up to which the errors leave the verdict open: the largest `exponent_error`, or another bound for "
+        "cords.",
         fact=True,
     )
     negative_directions: Field[int] = Field(
@@ -693,9 +694,9 @@ class SteadyShapes(Results[SteadyShape], Moving, row="shape", title="{_heading}"
     )
     complete: Field[bool] = Field(
         "Whether it is proved that no shape is missing among those searched for: for a chain or rig the shapes in its own "
-        "posture, or with ``hanging_only=False`` all shapes; for a hanging cord all shapes; for a held system shapes with up "
-        "to `max_half_waves` half waves. False if both ends of a held chain are off the axis: shapes may then leave their plane, and such "
-        "shapes are not searched for. False if only one branch was searched (`mode`).",
+        "posture, or with ``hanging_only=False`` all shapes; for a hanging cord all shapes; for a held system shapes with "
+        "up to `max_half_waves` half waves. False if both ends of a held chain are off the axis: shapes may then leave "
+        "their plane, and such shapes are not searched for. False if only one branch was searched (`mode`).",
         fact=True,
     )
     hanging_only: Field[bool] = Field(
