@@ -170,16 +170,18 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
     Heights and bounds are computed at once. Shapes, nodes, residuals and sensitivities are computed when they are first
     read, then stored; shapes, residuals and the nodes of links also when the result is saved. Arrays are read-only. A
     window may contain no modes (k = 0). ``modes[0]`` is a row: one number or array of each field. For a system held
-    straight at both ends, distances start at its lower end. What the fields say about dashpots holds for linear drag, too.
+    straight at both ends, distances start at its lower end. With the support off the axis, offsets are from the vertical below it, where the
+    system hangs at rest. What the fields say about dashpots holds for linear drag, too.
 
     Notes
     -----
     Heights of a cord follow from zeros of Bessel functions, Greenhill (1908), section 4: of ``J0`` for a uniform cord,
     of ``Jp`` for a density s^p, of a cross product of ``J`` and ``Y`` for a uniform cord with a tip or held at both
     ends. Those of a weightless cord are those of a string. All others are computed by power series. Accuracy
-    (``error_bound``): 3 ulp, 2 ulp with a tip, 4e-15 by power series. Nodes and vertical points: 5 ulp (uniform), 3 ulp
-    (a power), else 1e-15 of the length. Cost: 0.1 to 5 microseconds for a height in closed form, 0.4 to 3 milliseconds
-    for each mode up to the last by power series; no more for a node or a vertical point.
+    (``error_bound``): 3 ulp, 2 ulp with a tip or held, 4e-15 by power series, more with point masses, a bob or jumps of
+    density. Nodes and vertical points: 5 ulp (uniform), 3 ulp (a power), else 1e-15 of the length. Cost: 0.1 to 5
+    microseconds for a height in closed form, 0.4 to 3 milliseconds for each mode up to the last by power series; no more
+    for a node or a vertical point.
 
     Examples
     --------
