@@ -295,7 +295,8 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         -------
         tuple of SteadyShape
             The shapes in the order of the arc. At the speed of a fold, within rounding, it is the one shape of the fold.
-            The tuple is empty if the speed is outside the range of the branch, or that at which it leaves the vertical.
+            The tuple is empty if the speed is outside the range of the branch. At the speed at which the branch leaves the
+            vertical it is empty or, by rounding, has a nearly straight shape.
 
         Raises
         ------

@@ -43,7 +43,7 @@ class Stability(
 
     Notes
     -----
-    Exponents and verdict are without damping, except for dashpots of a rig. A minimum stays stable with friction at the
+    Exponents and verdict are without damping, except for dashpots at the pins of a rig. A minimum stays stable with friction at the
     pins. A shape that is only ``spectrally stable`` is stabilized by gyroscopic forces: any friction at the pins makes
     its motions of negative energy grow. `internal_damping` and `external_damping` give the effect on each motion, to
     first order.
@@ -77,12 +77,13 @@ class Stability(
     frame: Field[str] = Field("Frame of the analysis: ``'free'`` or ``'driven'``.", fact=True)
     verdict: Field[str] = Field("``'minimum'``, ``'spectrally stable'``, ``'unstable'`` or ``'undecided'``.", fact=True)
     exponents: Field[NDArray[np.complex128]] = Field(
-        "All ``s`` of ``exp(s n t)``, ordered by imaginary part, without those of the rotation itself: ``4 N - 2`` "
-        "for N links in the free frame, ``2 N`` in the driven frame; for N links held at both ends ``4 N - 8`` and "
-        "``2 N - 4``. The links are rods without inertia about their own axes. A pin without mass reduces the number: "
-        "the two links that meet there stay in line. Each end that yields adds 4 in the free frame, 2 in the driven "
-        "frame. An end carried round adds 2 in the free frame, because no rotation is left out. For a cord the "
-        "slowest of infinitely many, up to the first on which two discretisations do not agree to 1e-6.",
+        "All ``s`` of ``exp(s n t)``, ordered by imaginary part, without those of the rotation itself: ``4 N - 2`` for N "
+        "links in the free frame, ``2 N`` in the driven frame; for N links held at both ends ``4 N - 8`` and ``2 N - 4``. "
+        "The links are rods without inertia about their own axes. A pin without mass reduces the number: the two links "
+        "that meet there stay in line. Each end that yields adds 4 in the free frame, 2 in the driven frame. An end "
+        "carried round adds 2 in the free frame, because no rotation is left out. An end that yields where no mass moves "
+        "adds 2 in both frames. For a cord the slowest of infinitely many, up to the first on which two discretisations do "
+        "not agree to 1e-6.",
         heading="growth (n)",
         column="value",
         shown=lambda s: s.exponents.real,
@@ -398,8 +399,8 @@ class SteadyShape(
         ------
         ValueError
             If `frame` is another word; if a motion moves no mass (a movable pin of a held chain without mass, but for
-            an upper end on a spring), or a flywheel or a dashpot acts on a support that yields and has no mass; if, in the
-            free frame of a support on the axis, a rig has dashpots and driven wheels.
+            an upper end on a spring), or a flywheel or a dashpot acts on a support that yields where no mass moves; if,
+            in the free frame of a support on the axis, a rig has dashpots and driven wheels.
 
         Notes
         -----
