@@ -43,10 +43,10 @@ class Stability(
 
     Notes
     -----
-    Exponents and verdict are without damping, except for dashpots at the pins of a rig. A minimum stays stable with friction at the
-    pins. A shape that is only ``spectrally stable`` is stabilized by gyroscopic forces: any friction at the pins makes
-    its motions of negative energy grow. `internal_damping` and `external_damping` give the effect on each motion, to
-    first order.
+    Exponents and verdict are without damping, except for dashpots at the pins of a rig. A minimum stays stable with
+    friction at the pins. A shape that is only ``spectrally stable`` is stabilized by gyroscopic forces: any friction at
+    the pins makes its motions of negative energy grow. `internal_damping` and `external_damping` give the effect on each
+    motion, to first order.
 
     References
     ----------
