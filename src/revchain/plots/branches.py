@@ -89,8 +89,8 @@ def plot_branch(
 ) -> Axes:
     """Draw a quantity of the branch against the speed, with its stability, folds and pitchfork.
 
-    quantity: Quantity to draw: ``lowest_inclination`` (in degrees; of hanging systems unless given),
-        ``tip_radius``, ``largest_offset`` (of held systems unless given), ``top_tension``, ``moment_of_inertia`` or
+    quantity: Quantity to draw: ``lowest_inclination`` (in degrees; the default, but for held systems),
+        ``tip_radius``, ``largest_offset`` (the default of held systems), ``top_tension``, ``moment_of_inertia`` or
         ``effective_energy``.
     stability: Whether to draw the stability, as in `Branches.plot`.
     frame: Frame of the stability, ``"free"`` or ``"driven"``, as in `SteadyShape.stability`.
@@ -119,16 +119,18 @@ def plot_branches(
     is no minimum but spectrally stable, dashed where it is unstable, dotted where the errors of the exponents leave the
     stability open. Hollow diamonds are folds, discs are pitchforks, where a branch and its mirror image leave the
     vertical; their speeds are above the frame, unless another one is so close that the numbers would overlap. Crosses are
-    other changes of stability, such as a Hamiltonian Hopf bifurcation; `Branches.stability_windows` says what each is.
-    The line changes at the ends of these windows, also between two points. Above about 19,000 (points times links
-    squared) fewer places are examined, above 150,000 only the points and their neighbours, so that a short window can
-    be missed. With ``hanging_only=False`` colours show the posture if there are at most 7.
+    other changes of stability, such as a Hamiltonian Hopf bifurcation; of chains and rigs `Branches.stability_windows` says
+    what each is. The line changes at the ends of these windows, also between two points (of a held chain midway).
+
+    Above about 19,000 (points times links squared) fewer places are examined, above 150,000 only the points and their
+    neighbours, so that a short window can be missed. If the stability was asked for, the first limit does not apply. With
+    ``hanging_only=False`` colours show the posture if there are at most 7.
 
     quantity: Quantity to draw, as in `Branch.plot`.
     stability: Whether to draw the stability; if False, all lines are solid. If left out, it is drawn for chains, rigs and
         held chains if that takes less than about a second (points times links squared at most 150,000).
     frame: Frame of the stability, ``"free"`` or ``"driven"``, as in `SteadyShape.stability`.
-    returns: The drawing. The title says whether the diagram is `complete`.
+    returns: The drawing. The title says whether the diagram is `complete`, but for held systems.
     raises: If `quantity` is another word, or one that the system does not have; if `frame` is another word.
 
     >>> ax = rc.branches(rc.Chain.uniform_plummets(3, length=3.0), min_conical_height=0.04).plot()
@@ -274,7 +276,7 @@ def _postures(branches: Sequence[Branch]) -> dict[bytes, str]:
 
 
 def _label(ax: Axes, marks: list[_Mark]) -> None:
-    """Draw dotted lines at folds and pitchforks; their speeds are above the frame, where they hide no loop."""
+    """Draw dotted lines at folds and pitchforks, with their speeds above the frame, where they hide no loop."""
     left, right = ax.get_xlim()
     points = ax.get_window_extent().width * 72.0 / ax.figure.dpi
     kept: list[_Mark] = []

@@ -214,7 +214,7 @@ def plot_tortuous_rope(rope: TortuousRope, ax: Axes | None = None, *, half_waves
 def plot_governor(motion: GovernorMotion, ax: Axes | None = None, *, duration: float | None = None) -> Axes:
     """Draw the angle against time, with its smallest and largest values.
 
-    duration: Length of the time axis in s; two periods if left out.
+    duration: Length of the time axis in s; if left out two periods, or 1 s if the angle is constant.
     raises: If the motion never returns and no `duration` is given, or if `duration` is not positive and finite.
 
     >>> rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5).plot().get_ylabel()
@@ -239,6 +239,8 @@ def plot_governor(motion: GovernorMotion, ax: Axes | None = None, *, duration: f
 @described(bound=True)
 def plot_sleeve_governor(governor: SleeveGovernor, ax: Axes | None = None, *, speed: str | None = None) -> Axes:
     """Draw the lift of the sleeve against the speed, between the stops; grey: where friction holds it; dashed: unstable.
+
+    Without a sleeve the distance of the balls from the axis is drawn.
 
     >>> hartnell = rc.SleeveGovernor(ball_mass=1.5, arm=0.12, pivot_offset=0.12, sleeve_arm=0.06, sleeve_mass=2.0,
     ...     spring_stiffness=5000.0, spring_force=150.0, friction=5.0, lowest_inclination=-0.2, highest_inclination=0.3)

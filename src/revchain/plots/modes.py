@@ -353,8 +353,8 @@ def plot_modes(
     carried: Response of the same system at one speed with all pins, drawn first, with its support on its circle.
     speed: Unit of the speeds: ``"rad/s"``, ``"rpm"``, ``"Hz"`` (turns per second) or ``"s"`` (the period). If left out,
         each speed is written in the unit of the question, or in rpm and as a period.
-    raises: If `modes` has a number that is not in this result, the result is empty, or `carried` is not such a
-        response.
+    raises: If `modes` has a number that is not in this result, the result is empty (but for a rig, which is drawn at rest),
+        or `carried` is not such a response.
 
     >>> ax = rc.modes(rc.Chain.uniform_rods(120, length=0.36), 4).plot()
     >>> ax.get_ylabel()

@@ -31,13 +31,13 @@ def plot_response(
 ) -> Axes:
     """Draw the distances of pins from the axis against the speed, on a logarithmic scale.
 
-    A line is dashed if the pin is on the side opposite to the support (with dashpots: behind by more than a quarter of a
-    turn); vertical lines mark the resonances. A response at one speed is drawn as a shape: the offsets of the pins
-    against their depths.
+    A line is dashed if the pin is on the side opposite to the support or the force (with dashpots: behind or ahead by more
+    than a quarter of a turn); vertical lines mark the resonances of a chain. A response at one speed is drawn as a shape:
+    the offsets of the pins against their depths.
 
     pins: Numbers of the pins to draw. If left out: the lowest and up to three others, evenly spaced; all at a
         single speed.
-    resonances: Whether to mark the whirl speeds in the range of the plot; a `Rig` has no marks.
+    resonances: Whether to mark the whirl speeds of a chain in the range of the plot, if there are at most 60.
     raises: If `pins` has a pin that is not in this result, or the result has no speed.
 
     >>> import numpy as np

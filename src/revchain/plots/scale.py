@@ -34,7 +34,7 @@ def plot_to_scale(system: Any) -> Axes:
     """Return a drawing of a system at rest, true to scale, with the lengths and masses of its links.
 
     Symbols of small bodies are larger than true to scale. A system whose ends are held a span apart is drawn as an arc of
-    its length; a governor with its arms half-way between its stops.
+    its length; a governor with its arms half-way between its stops, or without stops at 30 degrees.
 
     Examples
     --------

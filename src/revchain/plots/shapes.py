@@ -50,7 +50,7 @@ def plot_shapes(shapes: SteadyShapes, ax: Axes | None = None, *, speed: str | No
 
 @described(bound=True)
 def plot_drag_shape(shape: DragShape, ax: Axes | None = None, *, view: str | None = None) -> Axes:
-    """Draw the shape from the side and from above, true to scale; an arrow has the sense of the motion.
+    """Draw the shape from the side and from above, true to scale; there an arrow has the sense of the motion.
 
     view: ``"side"``: seen along the motion, outward distance against depth. ``"above"``: outward distance against distance
         in the sense of the motion. If left out, both are drawn one above the other, in given axes the view from above.

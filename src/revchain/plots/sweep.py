@@ -60,7 +60,7 @@ def plot_sweep(found: Dataset, name: str | None = None, ax: Axes | None = None, 
     Raises
     ------
     ValueError
-        If there are more than two grids, or words varied.
+        If there are more than two grids, or words varied; if `name` is not that of a result, or `speed` is another unit.
 
     Examples
     --------
@@ -106,7 +106,7 @@ def plot_sweep(found: Dataset, name: str | None = None, ax: Axes | None = None, 
 
 
 def in_speed_unit(found: Dataset, unit: str | None) -> Dataset:
-    """The results with their speeds in a unit of `units.SPEED_UNITS`; unchanged for None."""
+    """The results with their speeds in a unit of `units.SPEED_UNITS`; unchanged for None and rad/s."""
     if unit in (None, "rad/s"):
         return found
     speeds = [key for key, array in found.variables.items() if array.attrs.get("units") == "rad/s"]

@@ -54,8 +54,8 @@ class Field(Generic[Value]):
         Function of the result that returns what is printed instead, such as words.
     joined : bool
         Whether the field is a result with the same rows, whose columns are added to those of this one.
-    column : str, optional
-        Name of the column, if it is not that of the field.
+    key : str, optional
+        Name of the column (the argument `column`), if it is not that of the field.
     left : bool
         Whether printed tables align the column on the left.
     """
@@ -135,7 +135,7 @@ class UnavailableError(AttributeError, ValueError):
 
 
 class Result(Unchangeable):
-    """The base of all results: immutable values that can be pickled; two are equal if all their parts are equal.
+    """The base of all results: immutable values that can be pickled; two of one class are equal if their parts are.
 
     A subclass lists its data as `Field`s, from which the table, dictionaries, files and equality follow. Where a field
     is computed by a compiled result, the subclass says in `_from_parts` how that is made from the parts of a loaded one.
@@ -199,7 +199,7 @@ class Result(Unchangeable):
         raise NotImplementedError
 
     def _is_good(self) -> bool:
-        """Return whether everything was found and proved: what `bool(result)` is."""
+        """Return whether everything was found and proved."""
         return not self._good or getattr(self, self._good, True) in (True, "success", "found")
 
     _unused: Collection[str] = ()  # names of columns that this result does not need
@@ -261,8 +261,8 @@ class Result(Unchangeable):
         Returns
         -------
         dict
-            The data. They can be written as JSON unless a number is infinite or NaN. The entry ``system`` holds the system
-            in numbers, as its own `to_dict` returns it; the `from_dict` of its class makes the system again.
+            The data. They can be written as JSON unless a number is infinite or NaN. The entry ``system`` of a result that
+            has a system holds it in numbers, as its own `to_dict` returns it. The `from_dict` of its class makes it again.
 
         Examples
         --------
@@ -276,7 +276,7 @@ class Result(Unchangeable):
         return as_dict(self._full())
 
     def to_dataframe(self) -> DataFrame:
-        """Return a pandas table with one row for each row of the result.
+        """Return a pandas table with one row for each row of the result (of `Branches`: for each point).
 
         Returns
         -------
@@ -302,7 +302,8 @@ class Result(Unchangeable):
         Returns
         -------
         xarray.Dataset
-            The data set, with arrays of any number of axes. The attribute ``system`` holds the system in numbers, as JSON.
+            The data set, with arrays of any number of axes. The attribute ``system`` holds the system, if the result has
+            one, in numbers as JSON.
 
         Raises
         ------
@@ -321,7 +322,7 @@ class Result(Unchangeable):
         """Write the result to a workbook for a spreadsheet program.
 
         The first sheet describes the system and the result. Each table has a sheet of its own, with units in its headings:
-        the links, the rows of this result, and each quantity that has a number for each pin or link.
+        the links or point masses, the rows of this result, and each quantity that has several numbers in a row.
 
         Parameters
         ----------
@@ -419,7 +420,7 @@ class Result(Unchangeable):
 
 
 class Listed(Sequence[Item]):
-    """The base of results that are sequences of other results, which the field `_items` holds."""
+    """The base of sequences of results, which the field `_items` holds."""
 
     __slots__ = ()
     _items: Any

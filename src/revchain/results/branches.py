@@ -27,7 +27,7 @@ Pair = tuple[float, float]
 _Part = tuple[float, float, float, float, str]  # arc at both ends, conical height at both ends, verdict
 OWN = "proved complete in its own posture"
 MOST_JUDGED = 150_000
-"""Points times links squared whose stability takes about a second: above it tables and pictures leave it out."""
+"""Points times links squared whose stability takes about a second; above it tables and pictures omit it unless asked."""
 
 
 class StabilityWindow(Result, row="end", title="Stability window: {verdict}"):
@@ -45,11 +45,12 @@ class StabilityWindow(Result, row="end", title="Stability window: {verdict}"):
     end: Field[tuple[str, str]] = Field("Names of the ends.", lambda w: ("start", "end"), heading="at")
     verdict: Field[str] = Field("``'minimum'``, ``'spectrally stable'``, ``'unstable'`` or ``'undecided'``.", fact=True)
     change: Field[str] = Field(
-        "How the verdict changes at the end of the window. ``'fold'``: two shapes meet there. ``'Hamiltonian Hopf'``: two "
+        "What happens at the end of the window. ``'fold'``: two shapes meet there. ``'Hamiltonian Hopf'``: two "
         "frequencies of small motion meet and leave the imaginary axis, or return to it (with dashpots ``'Hopf'``: one "
         "pair of exponents crosses it). ``'momentum fold'``: the angular momentum, which is constant in the free frame, has "
-        "an extremum along the branch. ``'zero exponent'``: an exponent passes 0 elsewhere, so that shapes may branch off "
-        "that leave the plane; they are not followed. ``'end'``: the branch ends. ``'undecided'``: the errors of the exponents leave it open.",
+        "an extremum along the branch. ``'zero exponent'``: an exponent passes 0 elsewhere; in the free frame shapes that "
+        "leave the plane may branch off, which are not followed. ``'end'``: the branch ends. ``'undecided'``: none of these "
+        "could be established.",
         fact=True,
     )
     angular_speed: Field[Pair] = Field(
@@ -112,8 +113,8 @@ class StabilityWindows(Results[StabilityWindow], row="window", title="{_title_wo
 class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spread=True):
     """A branch of steady shapes, point by point; returned by `branch` and `branches`.
 
-    Arrays have one number for each point. The branch of a chain, rig or cord that hangs is followed along its arc from
-    its start; that of a held system goes from the greatest speed to lower speeds and, after a fold, back.
+    Arrays other than `folds` have one entry for each point. The branch of a chain, a rig or a hanging cord is followed
+    along its arc from its start. That of a held system goes from the greatest speed to lower speeds and, after a fold, back.
 
     Examples
     --------
@@ -196,7 +197,8 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         "Whether each point is a fold.", lambda b: np.isin(b.point, b.folds), heading="fold", column="fold"
     )
     moment_of_inertia: Field[Floats] = Field(
-        "Moment of inertia about the axis, kg m^2; for a system given by weight, in weight times length squared.",
+        "Moment of inertia about the axis, as `SteadyShape.moment_of_inertia`, kg m^2; for a system given by weight, in "
+        "weight times length squared.",
         axes=(),
     )
     effective_energy: Field[Floats] = Field(
@@ -208,7 +210,8 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
     arc: Field[Floats] = Field(
         "Arc length of the branch from its first point, dimensionless: the root of the mean square of the links' ``d "
         "arsinh(tan(inclination))`` (of a cord: that of its free end) plus the square of ``d log(conical_height)``, "
-        "summed up. Not for held systems.",
+        "summed up. A support that yields counts as one more link, its offset over the total length as the tangent. Not for "
+        "held systems.",
         axes=(),
     )
     inclination: Field[Any] = Field(
@@ -292,13 +295,14 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         -------
         tuple of SteadyShape
             The shapes in the order of the arc. At the speed of a fold, within rounding, it is the one shape of the fold.
-            The tuple is empty if the speed is outside the range of the branch, or that at which it leaves the vertical.
+            The tuple is empty if the speed is outside the range of the branch. At the speed at which the branch leaves the
+            vertical it is empty or, by rounding, has a nearly straight shape.
 
         Raises
         ------
         ValueError
-            If not exactly one of `conical_height` and `angular_speed` is given, or a number is not positive
-            and finite, or the system is held.
+            If not exactly one of `conical_height` and `angular_speed` is given, a number is not positive and finite, the
+            system is held, or `gravity` is not that of the branch of a rig.
 
         Examples
         --------
@@ -617,9 +621,9 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
     them, posture by posture. Those of a held system are ordered by half waves.
 
     The printed table has a row for each branch; data frames, dictionaries and CSV files have one for each point, with its
-    verdict. A verdict can change twice between two points: `stability_windows` has the windows, which no such file holds.
-    The command line reports a failed search unless the diagram is `complete`; with ``hanging_only=False`` it is enough that
-    the branches of the own posture are proved complete and the others are `consistent`.
+    verdict if `Branch.verdict` allows. A verdict can change twice between two points: `stability_windows` has the windows,
+    which no such file holds. The command line reports a failed search if `complete` is false; with ``hanging_only=False``
+    it is enough that the branches of the own posture are proved complete and the others are `consistent`.
 
     Examples
     --------
@@ -676,13 +680,13 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
     )
     consistent: Field[bool] = Field(
         "Whether at each of the speeds `looked_at` the list is proved (of a cord: scanned) and each of its shapes "
-        "lies on exactly one branch. Not for held systems, nor are the next three.",
+        "lies on exactly one branch. Held systems have neither this nor `complete`, `remark` and `looked_at`.",
         fact=True,
     )
     complete: Field[bool] = Field(
         "Whether it is also proved that no branch is missing, even a closed one between two of these speeds; for a "
         "cord whether a theorem counts the shapes (see `steady_shapes`) and every branch was followed to its end. With "
-        "``hanging_only=False`` it is false, unless no posture has a shape.",
+        "``hanging_only=False`` it is false, except for a chain of one link, which has one posture.",
         fact=True,
     )
     remark: Field[str] = Field("A sentence that says what may be missing.", fact=True)

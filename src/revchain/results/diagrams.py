@@ -25,7 +25,7 @@ class ForceDiagram(Result, row="link", title="ForceDiagram: {_links} links, coni
 
     `SteadyShape.force_diagram` returns it. Points are rows ``(x from the axis, z upwards)``. The vertices of the
     funicular polygon are the pins, its sides are the links, and `load` are its loads. In the force diagram the load line
-    rises from the pole O, and the ray ``OQ_m`` is parallel to link m; its length is the pull along the link.
+    rises from the pole O, and the ray ``OQ_m`` is parallel to link m. For point masses its length is the pull in the link.
 
     Examples
     --------

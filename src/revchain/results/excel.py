@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from .base import Result
 
 MOST_LINES, MOST_ACROSS, MOST_LETTERS = 1_048_575, 16_384, 31  # rows below the heading, columns, letters of a sheet's name
-LINE = 90  # letters of text in a cell
+LINE = 90  # letters in the width of a column at most
 MOST_DRESSED = 200  # columns whose widths and headings are set
 PURPOSE = "an .xlsx file"
 UNITS_OF_FACTS = {

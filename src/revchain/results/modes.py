@@ -26,14 +26,14 @@ SPEED_ROUNDING = 2.1 * 2.0**-52  # rounding of a speed computed from a height
 class Certificate(Result, row="mode", title="Certificate: intervals proved to hold the conical heights"):
     """Intervals that are proved to contain the conical heights, and the counts that prove it.
 
-    Exactly ``above_lower[i]`` conical heights of the chain exceed ``lower[i]``, and ``above_upper[i]`` exceed
+    Exactly ``above_lower[i]`` conical heights of the system exceed ``lower[i]``, and ``above_upper[i]`` exceed
     ``upper[i]``. Because ``above_upper[i] < number[i] <= above_lower[i]``, the height with that number lies in the
     interval: ``lower < height <= upper``.
 
     Notes
     -----
-    For results in double precision `revchain.count_modes` returns the same counts at these numbers. The heights are those
-    of the stored data.
+    For results in double precision without flywheels `revchain.count_modes` returns the same counts at these numbers. With
+    flywheels the counts are for the direction of each mode. The heights are those of the stored data.
 
     Examples
     --------
@@ -122,7 +122,7 @@ def _complex(height: complex) -> str:
 
 
 def _of_height(name: str, of_speed: Callable[[Any], Any]) -> Callable[[Modes], Numbers]:
-    """A function of modes: `_core.conical_pendulum_NAME` of the height; of what has another speed, `of_speed` of that."""
+    """A function of modes: `_core.conical_pendulum_NAME` of heights; for rigs and longdouble `of_speed` of speeds."""
     compiled: Callable[[Floats, Any], Floats] = getattr(_core, f"conical_pendulum_{name}")
 
     def compute(modes: Modes) -> Numbers:
@@ -134,14 +134,14 @@ def _of_height(name: str, of_speed: Callable[[Any], Any]) -> Callable[[Modes], N
                 return of_speed(np.sqrt(np.longdouble(modes.gravity)) / np.sqrt(height))  # type: ignore[no-any-return]
         if not height.size or height[-1] > 0:  # the last is the least
             return compiled(height, modes.gravity)
-        # The dense references may return others by rounding.
+        # By rounding, the dense reference methods may return heights that are not positive.
         return np.where(height > 0, compiled(np.where(height > 0, height, 1.0), modes.gravity), np.nan)
 
     return compute
 
 
 def _nodes(modes: Modes, name: str = "nodes") -> Any:
-    """The places of each mode; of a cord they take memory in proportion to the number of the mode."""
+    """The nodes or vertical points of each mode; of a cord they take memory in proportion to the number of the mode."""
     if modes._is_damped:  # what crosses the axis moves
         return tuple(np.empty(0) for _ in modes.number)
     if modes.number.size and modes.system._kind.endswith("cord"):
@@ -168,17 +168,20 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
     """The modes of a system, slowest first: speeds, shapes, nodes and error bounds of k modes.
 
     Heights and bounds are computed at once. Shapes, nodes, residuals and sensitivities are computed when they are first
-    read, then stored; shapes, nodes and residuals also when the result is saved. Arrays are read-only. A window may
-    contain no modes (k = 0). ``modes[0]`` is a row: one number or array of each field. For a cord held straight at both
-    ends, distances start at its lower end.
+    read, then stored; shapes, residuals and the nodes of links also when the result is saved. Arrays are read-only. A
+    window may contain no modes (k = 0). ``modes[0]`` is a row: one number or array of each field. For a system held
+    straight at both ends, distances start at its lower end. With the support off the axis, offsets are from the vertical below it, where the
+    system hangs at rest. What the fields say about dashpots holds for linear drag, too.
 
     Notes
     -----
-    Heights of a cord are zeros of Bessel functions, Greenhill (1908), section 4: of ``J0`` for a uniform cord, of ``Jp`` for
-    a density s^p, of a cross product of ``J`` and ``Y`` for a uniform cord with a tip or held at both ends. All others are
-    computed by power series. Accuracy (``error_bound``): 3 ulp, 2 ulp with a tip, 4e-15 by power series. Nodes and vertical
-    points: 5 ulp (uniform), 3 ulp (a power), else 1e-15 of the length. Cost: 0.1 to 5 microseconds for a height in closed
-    form, 0.4 to 3 milliseconds for each mode up to the last by power series; no more for a node or a vertical point.
+    Heights of a cord follow from zeros of Bessel functions, Greenhill (1908), section 4: of ``J0`` for a uniform cord,
+    of ``Jp`` for a density s^p, of a cross product of ``J`` and ``Y`` for a uniform cord with a tip or held at both
+    ends. Those of a weightless cord are those of a string. All others are computed by power series. Accuracy
+    (``error_bound``): 3 ulp, 2 ulp with a tip or held, 4e-15 by power series, more with point masses, a bob or jumps of
+    density. Nodes and vertical points: 5 ulp (uniform), 3 ulp (a power), else 1e-15 of the length. Cost: 0.1 to 5
+    microseconds for a height in closed form, 0.4 to 3 milliseconds for each mode up to the last by power series; no more
+    for a node or a vertical point.
 
     Examples
     --------
@@ -232,9 +235,9 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         axes=(),
     )
     angular_speed: Field[Numbers] = Field(
-        "Whirl speed of each mode, ``sqrt(gravity / conical_height)``, rad/s, shape (k,), negative for backward modes. For a "
-        "hanging chain it is also the natural angular frequency of its swing in a plane. longdouble with "
-        "``precision='extended'``, else float64.",
+        "Whirl speed of each mode, ``sqrt(gravity / conical_height)``, rad/s, shape (k,), negative for backward modes. "
+        "With dashpots it is the imaginary part of `exponent`. For a hanging chain it is also the natural angular "
+        "frequency of its swing in a plane. longdouble with ``precision='extended'``, else float64.",
         otherwise=_of_height("angular_speed", lambda speed: speed),
         heading="speed",
         unit="rad/s",
@@ -255,14 +258,15 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         unit="s",
     )
     speed_error_bound: Field[Floats] = Field(
-        "Proved bound of the relative error of each angular speed, shape (k,), for the given gravity; also of frequency and "
-        "period, which for a rig have up to 4.5e-16 more. With dashpots it is larger than `error_bound` where the motion decays "
-        "faster than it oscillates; 0 where the motion is proved not to oscillate, so that the speed is exactly 0.",
+        "Bound of the relative error of each angular speed, shape (k,), for the given gravity, proved if `error_bound` is; "
+        "also of frequency and period, which for a rig have up to 4.5e-16 more. With dashpots it is larger than "
+        "`error_bound` where the motion decays faster than it oscillates; 0 where the motion is proved not to oscillate, "
+        "so that the speed is exactly 0.",
         otherwise=lambda m: _speed_bound(m.error_bound.astype(np.float64)),
         axes=(),
     )
     conical_height: Field[Numbers] = Field(
-        "Conical height ``gravity / angular_speed**2`` of each mode, m, shape (k,), descending.",
+        "Conical height ``gravity / angular_speed**2`` of each mode, m, shape (k,), descending. Not with dashpots.",
         heading="height",
         unit="m",
         digits=9,
@@ -273,7 +277,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         heading="error bound",
     )
     nodes: Field[tuple[Numbers, ...]] = Field(
-        "For each mode, the distances from the free end along the chain at which it crosses the axis, excluding the support. "
+        "For each mode, the distances from the free end along the chain at which it crosses the axis, excluding supports. "
         "With dashpots none: no point stays on the axis.",
         _nodes,
         axes=("node",),
@@ -282,8 +286,9 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         shown=lambda m: _texts(m.nodes),
     )
     exponent: Field[Complex] = Field(
-        "Exponents s of the motions ``shape * exp(s * t)``, 1/s, shape (k,). With dashpots the real part is the rate of decay, "
-        "negative, and modes are numbered by the size of s; else it is 0, and the imaginary part is the angular speed.",
+        "Exponents s of the motions ``shape * exp(s * t)``, 1/s, shape (k,). The imaginary part is the angular speed. With "
+        "dashpots the real part is negative for a motion that decays, and modes are numbered by the size of s; else it is "
+        "0.",
         lambda m: 1j * m.angular_speed.astype(float),
         axes=(),
         unit="1/s",
@@ -303,7 +308,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
     )
     error_estimate: Field[Floats] = Field(
         "With dashpots: estimate of the relative error of each exponent, shape (k,), also where `error_bound` is "
-        "infinite because nothing is proved; else the proved bound of the speed.",
+        "infinite because nothing is proved; else `speed_error_bound`.",
         otherwise=lambda m: m.speed_error_bound,
         axes=(),
     )
@@ -312,8 +317,9 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         otherwise=lambda m: 0,
     )
     residual: Field[Numbers | None] = Field(
-        "Residual of each shape, shape (k,): largest unbalanced force at a pin divided by the largest sum of the magnitudes of "
-        "the forces at a pin. None for cords, whose shapes are closed forms or power series.",
+        "Residual of each shape, shape (k,): largest unbalanced force at a pin divided by the largest sum of the "
+        "magnitudes of the forces at a pin. None with dashpots, and for cords, whose shapes are closed forms or power "
+        "series.",
         otherwise=lambda m: None,
         axes=(),
     )
@@ -322,10 +328,11 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         lambda m: np.linspace(0.0, m._require_cord("arc_length").length, 201),
     )
     shape: Field[Numbers] = Field(
-        "Offsets of the pins from the axis, shape (k, N + 1), free end first, support last. The largest magnitude of each mode "
-        "is 1, and the free end is positive. With dashpots they are complex, and the largest is 1: the real part is the shape at "
-        "the instant when that pin is farthest out. For a cord: offsets of the places `arc_length`, shape (k, 201); that of the free "
-        "end is 1. For a cord held at both ends the largest, at the lowest vertical point, is 1.",
+        "Offsets of the pins from the axis, shape (k, N + 1), free end first, support last. The largest magnitude of each "
+        "mode is 1, and the free end (of a held chain the lowest inner pin) is positive. With dashpots they are complex, "
+        "and the largest is 1: the real part is the shape at the instant when that pin is farthest out. For a cord: "
+        "offsets of the places `arc_length`, shape (k, 201); that of the free end is 1. For a cord held at both ends the "
+        "largest, at the lowest vertical point, is 1.",
         otherwise=lambda m: m.along(m.arc_length),
         axes=("pin",),
     )
@@ -382,7 +389,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         otherwise=lambda m: 0,
     )
     other: Field[OtherModes] = Field(
-        "The solutions that are not steady motions, computed when first read. Cost: 0.6 microseconds per solution and link.",
+        "The solutions that are not steady motions, computed when first read; none with dashpots. Cost: 0.6 microseconds "
+        "per solution and link.",
         lambda m: _others(m),
         fact=True,
     )
@@ -398,7 +406,9 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         fact=True,
     )
     sensitivity: Field[Sensitivity] = Field(
-        "Derivatives with respect to each datum. Not for held chains, nor for rigs with springs at pins, dashpots or linear drag. Cost: 0.6 microseconds per link and mode.", lambda m: _sensitivity(m)
+        "Derivatives with respect to each datum. Not for held chains, cords with a bob, and rigs with springs at pins, "
+        "dashpots or linear drag. Cost: 0.6 microseconds per link and mode.",
+        lambda m: _sensitivity(m),
     )
     description: Field[str] = Field("The system in words.", lambda m: m.system.describe(), fact=True)
     summary: Field[str] = Field("What was found, in words.", lambda m: _summary(m))
@@ -445,7 +455,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
             raise ValueError(
                 f"revchain.Modes.with_gravity: {fixed} has other modes at another gravity; call revchain.modes again"
             )
-        speeds = ("angular_speed", "frequency", "rpm", "period", "summary")
+        speeds = ("angular_speed", "frequency", "rpm", "period", "exponent", "decay_time", "summary")
         known = {name: value for name, value in dict(self.__dict__).items() if name not in ("_core", *speeds)}
         known["gravity"] = one_positive("revchain.Modes.with_gravity", "gravity", gravity)
         return type(self)._made(self._core, **known)
@@ -512,9 +522,10 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         ValueError
             If a deviation is negative or not finite, has another shape, or a covariance is not symmetric; if the system
             has no such datum, or was given by another; if a path is unknown, or two data are the same number; if a
-            chain is held at both ends, or a rig has springs at pins, dashpots or linear drag. With ``worst=True`` also
-            if a half-width is as large as its datum, or the system has flywheels, a fluid, standing links or more than
-            100 links, or is a cord with point masses or a bob, for which there is no proof.
+            chain is held at both ends, a cord has a bob, or a rig has springs at pins, dashpots or linear drag. With
+            ``worst=True`` also if a covariance is given, the exponent of a cord varies, a mass, length or stiffness
+            could be 0, or a radius of gyration or support mass negative; or if the system has flywheels, a fluid, standing
+            links, point masses on a cord or more than 100 links.
 
         Notes
         -----
@@ -604,8 +615,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         Returns
         -------
         ndarray, shape (k,) or (k, places)
-            Slopes in 1/m of the offsets that `along` returns; ``-1 / conical_height`` at a free end. Accuracy (relative to
-            the largest slope) and cost are those of `along`.
+            Slopes in 1/m of the offsets that `along` returns; ``-1 / conical_height`` at a free end without a bob. Accuracy
+            (relative to the largest slope) and cost are those of `along`.
 
         Raises
         ------
@@ -618,7 +629,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         -----
         A whirling cord of weight `W` and length `L` whose free end has the offset `b` has the kinetic energy
         ``W * L * (b * slope(L))**2 / 2`` to second order in `b`, in joules for `W` in newtons. Its potential energy is
-        equal. This holds without a tip and for a density that is a power.
+        equal. This holds for a cord without a tip whose density is a power.
 
         Examples
         --------
@@ -788,7 +799,8 @@ def _others(modes: Modes) -> OtherModes:
 def _refuse_pins(modes: Modes, name: str) -> None:
     if modes.system._kind == "rig" and modes.system._has_pins:
         raise UnavailableError(
-            f"revchain.Modes.{name}: cannot be found for a rig with springs or dashpots; call revchain.modes with another datum"
+            f"revchain.Modes.{name}: cannot be found for a rig with springs at pins, dashpots or linear drag; "
+            "call revchain.modes with another datum"
         )
 
 

@@ -28,7 +28,7 @@ class Response(Result, Moving):
     Arrays have the shape of the given speeds, ``(...)``; those of pins have one more axis. If the support moves to and fro
     along a line (base excitation), the numbers are amplitudes. Without dashpots all pins move in phase or in antiphase.
     With dashpots offsets and forces are complex: the real part of ``offset * exp(1j * angular_speed * time)`` is where a pin
-    is while the drive goes as the cosine.
+    is while the drive goes as the cosine. What the fields say about dashpots holds for linear drag, too.
 
     Examples
     --------
@@ -76,7 +76,7 @@ class Response(Result, Moving):
         "close to a resonance, infinite at a resonance. None if there is an estimate.",
     )
     error_estimate: Field[Floats | None] = Field(
-        "With springs or dashpots at pins, a trolley, an acceleration or a force: estimate of that error, shape (...). Else "
+        "With springs at pins, dashpots, a trolley, an acceleration or a force: estimate of that error, shape (...). Else "
         "None.",
         lambda r: None,
         part=True,
@@ -286,13 +286,13 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
     )
     error_bound: Field[Floats | None] = Field(
         "Proved bound of the rounding error of each offset as a sum of the modes used, m, shape (T,); infinite if a link is "
-        "inverted. It grows with time only after about 1e9 swings. None for a cord.",
+        "inverted. It grows with time only after about 1e9 swings. None for a cord, or if there is an `error_estimate`.",
         heading="error bound",
         unit="m",
     )
     error_estimate: Field[Floats | None] = Field(
-        "With springs or dashpots at pins, a trolley or a moving support: estimate of the error of each offset, m, shape "
-        "(T,). Else None.",
+        "With springs at pins, dashpots, linear drag, a trolley or a moving support: estimate of the error of each offset, "
+        "m, shape (T,). Else None.",
         lambda s: None,
         part=True,
         axes=(),
@@ -331,7 +331,9 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
         part=True,
         fact=True,
     )
-    residual_sway: Field[float | None] = Field("That of the free end, m.", lambda s: None if s.sway is None else float(s.sway[0]))
+    residual_sway: Field[float | None] = Field(
+        "`sway` of the free end, m.", lambda s: None if s.sway is None else float(s.sway[0])
+    )
     energy: Field[Floats | None] = Field(
         "Energy of each mode, J (weight times length), shape (k,); it is constant. It is negative if momentum keeps an "
         "inverted link from falling. None where there is an `error_estimate`.",
@@ -343,8 +345,8 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
     )
     amplitude: Field[Complex] = Field(
         "Coefficients, shape (k,), in offset = sum of ``shape * amplitude * exp(1j * angular_frequency * time)``; without "
-        "momentum the real part of this sum. With an `error_estimate` after `motion_end`, from the resting place, with "
-        "``exp(exponent * (time - motion_end))``.",
+        "momentum the real part of this sum. Where there is an `error_estimate`: those of the offsets from the resting "
+        "place after `motion_end`, with ``exp(exponent * (time - motion_end))``.",
         fact=True,
     )
     start: Field[Numbers | None] = Field(

@@ -27,8 +27,8 @@ class Moving:
         """Write a film of the motion, or a page that plays it.
 
         Modes and steady shapes turn about their axes, each at its own speed. A branch is gone through from its first
-        point to its last, a response from the least speed to the greatest. A swing runs from the first to the last of
-        its times. Offsets of small amplitude are drawn larger; steady shapes and branches are true to scale.
+        point to its last, a response at several speeds from the least to the greatest. A swing runs from the first to the
+        last of its times. Offsets of small amplitude have their own scale; steady shapes and branches are true to scale.
 
         Parameters
         ----------
@@ -40,19 +40,22 @@ class Moving:
             six if left out.
         time_scale : float, optional
             Seconds of motion in one second of film: 1 is real time, 0.1 ten times slower. If left out, it is chosen so
-            that the fastest figure takes about 0.8 s or more for a turn; the film says what it is.
+            that the fastest figure takes about 0.8 s or more for a turn; of a swing 1, unless it takes more than 10 s. The
+            film says what it is.
         duration : float, optional
-            Seconds of film. If left out: one turn of the slowest figure, at most 10 s; 12 s for a branch or a response.
+            Seconds of film. If left out: one turn of the slowest figure, or the whole swing, at most 10 s; 12 s for a branch
+            or a response at several speeds.
         frames_per_second : float
-            Frame rate of ``.gif`` and ``.mp4``. A GIF counts hundredths of a second and takes the nearest rate.
+            Frame rate of ``.gif`` and ``.mp4``, 0.1 to 1000. A GIF counts hundredths of a second and takes the nearest rate.
         progress : callable, optional
             Called with the number of frames drawn and that of all frames; of a page, with numbers of figures.
 
         Raises
         ------
         ValueError
-            If the path has another ending, a number is not positive and finite, `figures` names what is not there, there
-            is nothing to draw, a figure of a page turns more than 5000 times, or a response has not every pin.
+            If the path has another ending, a number is not positive and finite or the frame rate is out of its range,
+            `figures` names what is not there or is given for a single result, there is nothing to draw, the film has too
+            many frames, a figure of a page turns more than 5000 times, or a response does not have every pin.
         ImportError
             If a package is missing that the ending needs; the message says how to install it.
         OSError

@@ -57,7 +57,8 @@ class Sensitivity(Result):
     ``stiffness`` ``support_mass``  stiffness of the support, mass that moves with it; 0 if it is firm
     ``masses``                      point masses on a cord, shape (R, n), from the free end
     ``tip_mass`` ``exponent``       tip of a cord; exponent of its density at constant mass (NaN for a function)
-    ``tension`` ``span``            tension at the upper end; distance of the ends. What was not given is NaN
+    ``tension`` ``span``            tension at the upper end (0 for a hanging cord); distance of the ends of a held shape.
+                                    For a held shape the one that was not given is NaN
     ``angular_speed``               speed of a steady shape
     ``support_radius``              radius of the support of a steady shape
     ``lower_radius`` ...            radius, stiffness and mass of the lower and upper end of what is held
@@ -66,12 +67,13 @@ class Sensitivity(Result):
     The position and size of the displaced fluid and the momentum of the flywheel are constant while a datum of a link
     changes.
 
-    Laws: the relative derivatives of a height by masses add up to 0, those by lengths, centroids and radii of gyration to 1,
-    and those by lengths in proportion to 1; each of these is the link's share of the potential energy. Method for modes:
-    ``(y' dM y - height y' dK y) / (y' K y)`` in double-double, from the shape y alone, O(N) for each mode. Accuracy: of
-    chains `error_bound`, in most cases half an ulp, proved; of rigs that of the shapes, 1e-14 of the largest; of cords 1e-12
-    of the height divided by the datum. For shapes: implicit function theorem, O(N^3), 20 ms for 200 links; 1e-12 of the
-    largest of a kind, or 1e-13 times `SteadyShape.condition` if that is more. At a fold of a branch they are infinite.
+    Laws for what hangs: the relative derivatives of a height by masses add up to 0, those by lengths, centroids and radii of
+    gyration to 1, and those by lengths in proportion to 1; each of the last is the link's share of the potential energy.
+    Method for modes: ``(y' dM y - height y' dK y) / (y' K y)`` in double-double, from the shape y alone, O(N) for each mode.
+    Accuracy: of chains `error_bound`, in most cases half an ulp, proved; of rigs that of the shapes, 1e-14 of the largest;
+    of cords 1e-12 of the height divided by the datum. For shapes: implicit function theorem, O(N^3), 20 ms for 200 links;
+    1e-12 of the largest of a kind, or 1e-13 times `SteadyShape.condition` if that is more. At a fold of a branch the exact
+    derivatives are infinite.
 
     Examples
     --------
@@ -209,8 +211,8 @@ class Uncertainty(Result, row="mode", title="Standard deviations"):
     )
     period: Field[Floats] = Field("Standard deviation of each period, s, shape (k,).", heading="of the period", unit="s")
     share: Field[Sensitivity] = Field(
-        "Part of each variance that comes from each datum, in the form of a `Sensitivity`; the parts of a mode add up to 1. "
-        "With a covariance a part may be negative."
+        "Part of each variance that comes from each datum, in the form of a `Sensitivity`; the parts of a mode add up to "
+        "1, or to 0 if it is exact. With a covariance a part may be negative."
     )
     largest: Field[tuple[str, ...]] = Field(
         "For each mode the path of the datum that contributes most, such as ``'links[load].mass'``; empty if the mode is "
@@ -256,7 +258,10 @@ def sensitivity_of_modes(modes: Modes) -> Sensitivity:
         values = dict(zip(DATA, found, strict=True))
         bounds = by_datum("conical_height", modes, dict(zip(DATA, errors, strict=True)))
     else:
-        rates: Any = _core.cord_sensitivity(modes._found()) if len(modes) else [np.empty(0)] * len(OF_CORDS)
+        try:
+            rates: Any = _core.cord_sensitivity(modes._found()) if len(modes) else [np.empty(0)] * len(OF_CORDS)
+        except ValueError as error:  # a cord with a bob
+            raise UnavailableError(str(error)) from None
         values = {name: rate for name, rate in zip(OF_CORDS, rates, strict=True) if name in data}
         values["tension"] = values["tension"] / system._force(modes.gravity)
     ratio = {name: x * (data[name] / (heights[:, None] if x.ndim == 2 else heights)) for name, x in values.items()}

@@ -43,10 +43,10 @@ class Stability(
 
     Notes
     -----
-    Exponents and verdict are without damping, except for dashpots of a rig. A minimum stays stable with friction at the
-    pins. A shape that is only ``spectrally stable`` is stabilized by gyroscopic forces: any friction at the pins makes
-    its motions of negative energy grow. `internal_damping` and `external_damping` give the effect on each motion, to
-    first order.
+    Exponents and verdict are without damping, except for dashpots at the pins of a rig. A minimum stays stable with
+    friction at the pins. A shape that is only ``spectrally stable`` is stabilized by gyroscopic forces: any friction at
+    the pins makes its motions of negative energy grow. `internal_damping` and `external_damping` give the effect on each
+    motion, to first order.
 
     References
     ----------
@@ -77,12 +77,13 @@ class Stability(
     frame: Field[str] = Field("Frame of the analysis: ``'free'`` or ``'driven'``.", fact=True)
     verdict: Field[str] = Field("``'minimum'``, ``'spectrally stable'``, ``'unstable'`` or ``'undecided'``.", fact=True)
     exponents: Field[NDArray[np.complex128]] = Field(
-        "All ``s`` of ``exp(s n t)``, ordered by imaginary part, without those of the rotation itself: ``4 N - 2`` "
-        "for N links in the free frame, ``2 N`` in the driven frame; for N links held at both ends ``4 N - 8`` and "
-        "``2 N - 4``. The links are rods without inertia about their own axes. A pin without mass reduces the number: "
-        "the two links that meet there stay in line. Each end that yields adds 4 in the free frame, 2 in the driven "
-        "frame. An end carried round adds 2 in the free frame, because no rotation is left out. For a cord the "
-        "slowest of infinitely many, up to the first on which two discretisations do not agree to 1e-6.",
+        "All ``s`` of ``exp(s n t)``, ordered by imaginary part, without those of the rotation itself: ``4 N - 2`` for N "
+        "links in the free frame, ``2 N`` in the driven frame; for N links held at both ends ``4 N - 8`` and ``2 N - 4``. "
+        "The links are rods without inertia about their own axes. A pin without mass reduces the number: the two links "
+        "that meet there stay in line. Each end that yields adds 4 in the free frame, 2 in the driven frame. An end "
+        "carried round adds 2 in the free frame, because no rotation is left out. An end that yields where no mass moves "
+        "adds 2 in both frames. For a cord the slowest of infinitely many, up to the first on which two discretisations do "
+        "not agree to 1e-6.",
         heading="growth (n)",
         column="value",
         shown=lambda s: s.exponents.real,
@@ -118,7 +119,9 @@ class Stability(
         fact=True,
     )
     margin: Field[float] = Field(
-        "Growth rate up to which the errors leave the verdict open: the largest `exponent_error`, or another bound for cords.", fact=True
+        "Growth rate up to which the errors leave the verdict open: the largest `exponent_error`, or another bound for "
+        "cords.",
+        fact=True,
     )
     negative_directions: Field[int] = Field(
         "Number of negative directions of the energy in the turning frame, at constant angular momentum in the free "
@@ -248,8 +251,9 @@ class SteadyShape(
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2; 0 without gravity.", fact=True)
     direction: Field[int] = Field("Direction of rotation, 1 or -1; only a rig with flywheels depends on it.", fact=True)
     moment_of_inertia: Field[float] = Field(
-        "Moment of inertia about the axis, with masses on springs of held ends, kg m^2; for a system given by weight, "
-        "in weight times length squared. Not for hanging cords.",
+        "Moment of inertia about the axis, with the masses on springs at its ends, kg m^2; for a system given by weight, in "
+        "weight times length squared. Still fluid adds its added mass, turning fluid subtracts the mass displaced. Not for "
+        "hanging cords.",
         fact=True,
     )
     effective_energy: Field[float] = Field(
@@ -267,7 +271,7 @@ class SteadyShape(
     )
     span: Field[float] = Field("Distance between the two ends of a held system along the axis, m.", fact=True)
     support_offset: Field[float] = Field(
-        "Offset of the upper end from the axis, m; it is 0 unless a `Rig` or the arms of a held chain move it.",
+        "Offset of the upper end from the axis, m; 0 for a firm end on the axis.",
         lambda s: float(s.offset[-1]),
         fact=True,
     )
@@ -395,8 +399,8 @@ class SteadyShape(
         ------
         ValueError
             If `frame` is another word; if a motion moves no mass (a movable pin of a held chain without mass, but for
-            an upper end on a spring), or a flywheel or a dashpot acts on a support that yields and has no mass; if, in the
-            free frame of a support on the axis, a rig has dashpots and driven wheels.
+            an upper end on a spring), or a flywheel or a dashpot acts on a support that yields where no mass moves; if,
+            in the free frame of a support on the axis, a rig has dashpots and driven wheels.
 
         Notes
         -----
@@ -690,10 +694,10 @@ class SteadyShapes(Results[SteadyShape], Moving, row="shape", title="{_heading}"
         fact=True,
     )
     complete: Field[bool] = Field(
-        "Whether it is proved that no shape is missing among those searched for: for a chain or rig the hanging "
-        "shapes, or with ``hanging_only=False`` all shapes; for a held system shapes with up to `max_half_waves` half "
-        "waves. False if both ends of a held chain are off the axis: shapes may then leave their plane, and such "
-        "shapes are not searched for. False if only one branch was searched (`mode`).",
+        "Whether it is proved that no shape is missing among those searched for: for a chain or rig the shapes in its own "
+        "posture, or with ``hanging_only=False`` all shapes; for a hanging cord all shapes; for a held system shapes with "
+        "up to `max_half_waves` half waves. False if both ends of a held chain are off the axis: shapes may then leave "
+        "their plane, and such shapes are not searched for. False if only one branch was searched (`mode`).",
         fact=True,
     )
     hanging_only: Field[bool] = Field(

@@ -25,7 +25,7 @@ from .kinds import KINDS, restored
 if TYPE_CHECKING:
     from .base import Result
 
-FORMAT = 2  # raised when files are written that earlier versions cannot read; files of each earlier number are read
+FORMAT = 2  # raised when files are written that earlier versions cannot read; no release wrote files of format 1
 HEADER = "revchain"  # name of the entry that describes the contents of a file
 COMPRESSED = "holds arrays larger than the file, as revchain saves none; compute and save the result again"
 NOT_OURS = "is not a result that revchain saved, or was damaged since; compute and save it again"
@@ -79,8 +79,8 @@ def load(path: str | os.PathLike[str]) -> Result:
     Raises
     ------
     ValueError
-        If the path has another ending, or the file does not contain a result or is damaged: the checksums of ``.npz``
-        find every changed number. If a later version saved the result and this version cannot read it; the message says
+        If the path has another ending, or the file does not contain a result or is damaged; checksums of ``.npz``
+        find changed numbers. If a later version saved the result and this version cannot read it; the message says
         which version to install.
     ImportError
         If a package for ``.nc`` is not installed; the message says how to install it.

@@ -38,9 +38,9 @@ class Tuned(Result, row="value", title="Tuned: {summary}", good="status"):
         "if none was found.", fact=True,
     )
     error_bound: Field[float | None] = Field(
-        "Proved bound of the absolute error of `value`; for cords an estimate, as the bounds of their modes "
-        "are. None if no value was found, and for stiffness, momentum and spin of a rig, which are computed to 1e-15; the "
-        "bound of the new rig's speed is then proved.", fact=True,
+        "Proved bound of the absolute error of `value`; an estimate for cords, as the bounds of their modes are, and with "
+        "`top_tension`. None if no value was found, and for stiffness, momentum and spin of a rig, which are computed to "
+        "1e-15; the bound of the new rig's speed is then proved.", fact=True,
     )
     values: Field[Floats] = Field("All values found in the range, ascending.", heading="value", column="value")
     complete: Field[bool] = Field(
@@ -50,8 +50,8 @@ class Tuned(Result, row="value", title="Tuned: {summary}", good="status"):
     present: Field[float] = Field("Present value of the datum.", fact=True)
     between: Field[Pair] = Field("Range of the search.", fact=True)
     reachable: Field[Pair | None] = Field(
-        "If no value was found: the smallest and the largest conical height in the range, at 33 or 65 values; None for a "
-        "datum with at most one value for each speed.", fact=True,
+        "If no value was found: the smallest and the largest conical height seen in the range, at 33 or 65 values or more; "
+        "None for gravity, and for stiffness, momentum and spin of a rig.", fact=True,
     )
     summary: Field[str] = Field("The result in words.", lambda t: t._words())
 
