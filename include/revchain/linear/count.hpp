@@ -12,7 +12,7 @@ namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
 /// Returns the number of roots above x, by the proved counts `count(x)`. A root within 2^20
-/// roundings of x counts as equal to it. Throws InvalidArgument if the number is not proved;
+/// roundings of x may count as equal to it. Throws InvalidArgument if the number is not proved;
 /// `place` and `value` are for the message.
 template <Real S, class T, class Count>
 Index number_above(S x, std::string_view place, const T& value, const Count& count) {

@@ -100,7 +100,7 @@ PICTURES = {  # arguments of the methods that draw
     "ax": "Axes to draw in; a new figure if left out",
     "axes": "Axes to draw in; a new figure if left out",
     "speed": 'Unit of the speeds: ``"rad/s"``, ``"rpm"``, ``"Hz"`` (turns per second) or ``"s"`` (the period); if left out '
-    "that in which the question was asked",
+    "that in which the question was asked.",
 }
 _RANGES = {", positive.": POSITIVE, ", not negative.": NOT_NEGATIVE, ".": ANY}
 _TYPES = {

@@ -149,8 +149,8 @@ class Corrector {
     std::size_t size() const { return links_.size(); }
     const BranchLinks<double>& links() const { return links_; }
     /// Returns true if the number of half waves is constant along a branch. So it is for a chain
-    /// with l <= a for all links, positive pulls and a firm support on the axis: if a pin is on the
-    /// axis, its neighbours are on opposite sides.
+    /// with h >= 0 and l <= a for all links, positive pulls and a firm support on the axis: if a
+    /// pin is on the axis, its neighbours are on opposite sides.
     bool half_waves_are_kept() const { return half_waves_are_kept_; }
 
     struct Change {

@@ -205,7 +205,7 @@ Stability judged(StabilityFrame frame, const Chain<double>& chain, const Shape& 
 }
 
 /// Returns the shape of a rig as pulled links, at a height and speed n > 0. Momentum p of a link
-/// about itself adds p/a to the pull.
+/// about itself adds p over its horizontal length, p/(a cos), to the pull.
 REVCHAIN_LAZY
 PulledLinks pulled_links(const Rig& rig, const RiggedLinks& given, const SteadyShape& shape,
                          double height, double speed) {
