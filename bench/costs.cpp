@@ -80,9 +80,8 @@ void chains() {
     cost("chain: equal link", 1000, [&] { return Chain<double>(equal).total_weight(); });
     cost("chain: link", 1000, [&] { return Chain<double>(unequal).total_weight(); });
     const Chain<double> chain(unequal);
-    cost("count: ModeCounter, link", 1000, [counter = revchain::ModeCounter<double>(chain)] {
-        return counter.above_height(10.0);
-    });
+    cost("count: ModeCounter, link", 1000,
+         [counter = revchain::ModeCounter<double>(chain)] { return counter.above_height(10.0); });
     cost("count: count_modes, link", 1000, [&] { return revchain::count_modes(chain, {.conical_height = 10.0}); });
 
     for (const bool rods : {false, true}) {
@@ -125,9 +124,8 @@ void modes() {
          [&] { return revchain::sensitivity(chain, found).weight().value(0, 0); });
     Numbers speeds;
     for (int i = 0; i < 1000; ++i) speeds.push_back(0.1 + 0.01 * i);
-    cost("response: link and speed", 1000 * 100, [c = mixed(100), &speeds] {
-        return revchain::response(c, {.angular_speed = speeds}).offset(0, 0);
-    });
+    cost("response: link and speed", 1000 * 100,
+         [c = mixed(100), &speeds] { return revchain::response(c, {.angular_speed = speeds}).offset(0, 0); });
 
     const Rig sprung(chain, {.support = revchain::horizontal_spring(50.0)});
     cost("rig_modes: link and mode, with shapes", 1000 * 100, [&] {
@@ -166,9 +164,8 @@ void motion() {
     });
     Numbers very_many;
     for (int i = 0; i < 20'000; ++i) very_many.push_back(0.01 * i);
-    cost("transient: link, motion and time (with the motions)", squared * 20'000, [&] {
-        return std::abs(revchain::transient(dashpots, {.offset = pulled, .time = very_many}).offset(0, 0));
-    });
+    cost("transient: link, motion and time (with the motions)", squared * 20'000,
+         [&] { return std::abs(revchain::transient(dashpots, {.offset = pulled, .time = very_many}).offset(0, 0)); });
 }
 
 void shapes() {
@@ -192,17 +189,15 @@ void shapes() {
     const auto points = static_cast<double>(revchain::branch(rods, to).size());
     cost("branch: link and point", 100 * points, [&] { return revchain::branch(rods, to).tip_radius.back(); });
     const auto diagram = [](const std::string& name, const Chain<double>& chain, double height) {
-        cost(name, 1, [&] {
-            return revchain::branches(chain, {.min_conical_height = height}, thorough).branches.size();
-        });
+        cost(name, 1,
+             [&] { return revchain::branches(chain, {.min_conical_height = height}, thorough).branches.size(); });
     };
     diagram("branches: 3 plummets", plummets(3), 3 / 200.0);
     diagram("branches: 6 plummets", plummets(6), 6 / 200.0);
     const auto long_one = Chain<double>::uniform_rods(100'000, 1.0);
     const double critical = revchain::modes(long_one, {.count = 1}).angular_speed()[0];
-    cost("steady_shape: 100,000 rods", 1, [&] {
-        return revchain::steady_shape(long_one, {.angular_speed = 2 * critical}).offset[0];
-    });
+    cost("steady_shape: 100,000 rods", 1,
+         [&] { return revchain::steady_shape(long_one, {.angular_speed = 2 * critical}).offset[0]; });
 
     for (const Index n : {20, 40}) {
         const auto chain = plummets(n);
@@ -239,10 +234,10 @@ void cords() {
 }
 
 void closed_forms() {
-    const auto clapper = revchain::compound_pendulum<double>(
-        {.weight = 10, .length = 0.8, .centroid = 0.7, .radius_of_gyration = 0.1});
-    const auto body = revchain::compound_pendulum<double>(
-        {.weight = 200, .length = 0.2, .centroid = 0.4, .radius_of_gyration = 0.4});
+    const auto clapper =
+        revchain::compound_pendulum<double>({.weight = 10, .length = 0.8, .centroid = 0.7, .radius_of_gyration = 0.1});
+    const auto body =
+        revchain::compound_pendulum<double>({.weight = 200, .length = 0.2, .centroid = 0.4, .radius_of_gyration = 0.4});
     const auto bell = revchain::bell_and_clapper(Chain<double>({clapper, body}));
     cost("bell: first_strike", 1,
          [&] { return revchain::first_strike(bell, {.clearance = 0.4, .amplitude = 1.5}).time; });
@@ -256,8 +251,7 @@ void closed_forms() {
          [&] { return revchain::carried_inclinations<double>(1.0, 0.6 * half, 0.2).inclination[0]; });
     const auto pair = [] { return revchain::two_plummets_shapes<double>(1.0, 0.5, 1.0, 0.5, 0.2 * half); };
     cost("two_links: shape", static_cast<double>(pair().size()), [&] { return pair().size(); });
-    revchain::analytic::Governor data{
-        .angular_speed = 6.0, .pendulum_length = 0.5, .gravity = 9.80665, .angle = 1.2};
+    revchain::analytic::Governor data{.angular_speed = 6.0, .pendulum_length = 0.5, .gravity = 9.80665, .angle = 1.2};
     const revchain::analytic::GovernorMotion motion(data);
     cost("governor: construct", 1, [&] {
         data.angle = 1.2 + half;

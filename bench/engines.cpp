@@ -52,8 +52,8 @@ void compare_engines(const support::Family& family, Index n, Index asked, std::o
         for (Engine& e : engines) {
             e.heights.push_back(
                 1e6 * bench::seconds_of([&] { sink += ask(e, Chain<double>(links)).conical_height[0]; }, 1e-3));
-            e.shapes.push_back(
-                1e6 * bench::seconds_of([&] { sink += ask(e, Chain<double>(links)).shapes()(0, 0); }, 1e-3));
+            e.shapes.push_back(1e6 *
+                               bench::seconds_of([&] { sink += ask(e, Chain<double>(links)).shapes()(0, 0); }, 1e-3));
         }
     if (sink == 0) return;
     const Chain<DoubleDouble> exact = revchain::detail::converted<DoubleDouble>(chain);

@@ -410,7 +410,8 @@ int main(int count, char** given) {
         std::printf("\"%s\",%ld,%ld,%ld,%ld,%.3g\n", row.name, systems - tally.refused, tally.numbers, tally.outside,
                     tally.unproved, tally.worst);
         std::fflush(stdout);
-        if (!std::string_view(row.name).starts_with("stability")) outside += tally.outside;  // which has no proved bound
+        if (!std::string_view(row.name).starts_with("stability"))
+            outside += tally.outside;  // which has no proved bound
     }
     return outside == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

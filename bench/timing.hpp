@@ -10,7 +10,8 @@ namespace bench {
 
 #if !defined(__OPTIMIZE__)
 // The build of ./test checks what programs measure, not times.
-inline const int warned = std::fputs("not optimised: times mean nothing (bench/run builds programs that time)\n", stderr);
+inline const int warned =
+    std::fputs("not optimised: times mean nothing (bench/run builds programs that time)\n", stderr);
 #endif
 
 /// CPU time of all threads of this process.

@@ -110,8 +110,8 @@ std::string list(const Registry& registry) {
     const char* separator = "";
     for (const Method& m : registry.methods) {
         out << separator << "{\"name\":" << quoted(m.name) << ",\"family\":" << quoted(m.family)
-            << ",\"kinds\":" << quoted(m.kinds) << ",\"largest\":" << m.largest
-            << ",\"which\":" << quoted(m.which) << ",\"has_tolerance\":" << (m.has_tolerance ? "true" : "false") << '}';
+            << ",\"kinds\":" << quoted(m.kinds) << ",\"largest\":" << m.largest << ",\"which\":" << quoted(m.which)
+            << ",\"has_tolerance\":" << (m.has_tolerance ? "true" : "false") << '}';
         separator = ",";
     }
     out << "],\"missing\":[";
@@ -197,9 +197,9 @@ std::string check() {
             const std::size_t few = std::min<std::size_t>(size, 10);
             if (kind != 'D' && kind != 'E') bench::Direct(raw).newton(few, newton);
             if (kind != 'D' && kind != 'E') bench::Direct(raw).two_points(few, two_points);
-            const auto all = revchain::modes(bench::library_chain(raw), {.count = revchain::all_modes},
-                                             revchain::methods::all)
-                                 .conical_height;
+            const auto all =
+                revchain::modes(bench::library_chain(raw), {.count = revchain::all_modes}, revchain::methods::all)
+                    .conical_height;
             for (std::size_t j = 0; j<size; j += size> 40 && j >= 10 ? 29 : 1) {
                 const double guess = all[static_cast<revchain::Index>(j)];
                 const support::Quad h = reference.height(static_cast<revchain::Index>(j), support::Quad(guess) / 2,
@@ -214,7 +214,8 @@ std::string check() {
     std::ostringstream out;
     // Measured: 5e-19 (the secant's own error, of a bracket of 1e-10), 3.4 ulp.
     const bool good = worst_pair < 1e-18 && worst_direct < 6;
-    out << "{\"good\":" << (good ? "true" : "false") << ",\"pair\":" << worst_pair << ",\"direct_ulp\":" << worst_direct << '}';
+    out << "{\"good\":" << (good ? "true" : "false") << ",\"pair\":" << worst_pair << ",\"direct_ulp\":" << worst_direct
+        << '}';
     return out.str();
 }
 

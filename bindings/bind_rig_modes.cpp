@@ -188,8 +188,7 @@ void bind_rig_modes(py::module_& module) {
             return py::make_tuple(complex_numbers(found.exponent, {found.size()}), to_numpy(found.error_bound),
                                   to_numpy(found.error_estimate),
                                   complex_numbers(found.shapes, {found.size(), rig.size() + 1}), found.available,
-                                  found.rigid, found.complete,
-                                  std::string(to_string(found.status)));
+                                  found.rigid, found.complete, std::string(to_string(found.status)));
         },
         "rig"_a, "first"_a, "count"_a, "gravity"_a, "progress"_a = py::none());
     module.def(

@@ -112,16 +112,16 @@ void bind_two_links(py::module_& module) {
                                      p.height,      p.lift,  p.stable ? 1.0 : 0.0, p.period};
     };
     py::class_<SleeveGovernor>(module, "SleeveGovernor", "A centrifugal governor with a sleeve.")
-        .def(py::init([](double ball_mass, int balls, double arm, double pivot_offset, double lower_arm, double joint,
-                         double sleeve_offset, double sleeve_arm, double sleeve_mass, double spring_stiffness,
-                         double spring_force, double friction, double shaft_inertia, double gravity) {
-                 return SleeveGovernor({ball_mass, balls, arm, pivot_offset, lower_arm, joint, sleeve_offset,
-                                        sleeve_arm, sleeve_mass, spring_stiffness, spring_force, friction,
-                                        shaft_inertia, gravity});
-             }),
-             "ball_mass"_a, "balls"_a, "arm"_a, "pivot_offset"_a, "lower_arm"_a, "joint"_a, "sleeve_offset"_a,
-             "sleeve_arm"_a, "sleeve_mass"_a, "spring_stiffness"_a, "spring_force"_a, "friction"_a, "shaft_inertia"_a,
-             "gravity"_a)
+        .def(
+            py::init([](double ball_mass, int balls, double arm, double pivot_offset, double lower_arm, double joint,
+                        double sleeve_offset, double sleeve_arm, double sleeve_mass, double spring_stiffness,
+                        double spring_force, double friction, double shaft_inertia, double gravity) {
+                return SleeveGovernor({ball_mass, balls, arm, pivot_offset, lower_arm, joint, sleeve_offset, sleeve_arm,
+                                       sleeve_mass, spring_stiffness, spring_force, friction, shaft_inertia, gravity});
+            }),
+            "ball_mass"_a, "balls"_a, "arm"_a, "pivot_offset"_a, "lower_arm"_a, "joint"_a, "sleeve_offset"_a,
+            "sleeve_arm"_a, "sleeve_mass"_a, "spring_stiffness"_a, "spring_force"_a, "friction"_a, "shaft_inertia"_a,
+            "gravity"_a)
         .def(
             "at",
             [row](const SleeveGovernor& governor, const Array& inclination) {

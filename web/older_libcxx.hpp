@@ -20,8 +20,7 @@ template <class To, class From>
 #if !defined(__cpp_lib_smart_ptr_for_overwrite)
 namespace std {
 template <class Array>
-    requires is_unbounded_array_v<Array>
-unique_ptr<Array> make_unique_for_overwrite(size_t size) {
+requires is_unbounded_array_v<Array> unique_ptr<Array> make_unique_for_overwrite(size_t size) {
     return unique_ptr<Array>(new remove_extent_t<Array>[size]);
 }
 }  // namespace std

@@ -155,10 +155,9 @@ struct DiagramOptions {
     std::optional<double> max_angular_speed{};  ///< rad/s
     std::size_t max_points = 10'000;            ///< of each branch
     double max_step = 0.1;                      ///< along the arc
-    int lists = 16;           ///< heights, evenly spaced in the logarithm, with a proved list
-    long budget = 3'000'000;  ///< of each list, see SteadyShapesOptions
-    long proof_budget =
-        1'000'000;  ///< link evaluations in the proof; with `thorough`
+    int lists = 16;                 ///< heights, evenly spaced in the logarithm, with a proved list
+    long budget = 3'000'000;        ///< of each list, see SteadyShapesOptions
+    long proof_budget = 1'000'000;  ///< link evaluations in the proof; with `thorough`
     double gravity = conical_pendulum::standard_gravity;  ///< with `max_angular_speed`
 };
 
@@ -263,8 +262,8 @@ struct ShapesOnBranch {
     std::vector<SteadyShape> shapes;
     /// why the search ended; `height` also after `max_shapes`; `budget`: after 100,000 steps
     BranchEnd end = BranchEnd::height;
-    double searched_to = 0;             ///< the conical height at which it ended
-    bool from_rest = false;             ///< the branch begins at rest: the support is off the axis
+    double searched_to = 0;  ///< the conical height at which it ended
+    bool from_rest = false;  ///< the branch begins at rest: the support is off the axis
 };
 
 /// The first shape along the branch of a mode at which one number has its given value: conical

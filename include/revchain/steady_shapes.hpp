@@ -63,7 +63,7 @@ struct SteadyShapesOptions {
     /// Limit of link evaluations. Each takes 0.5 microseconds for plummets, longer for other links
     /// and in double-double.
     long budget = 3'000'000;
-    bool hanging_only = true;  ///< only shapes with every link hanging
+    bool hanging_only = true;                             ///< only shapes with every link hanging
     double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`
     Index threads = 1;                                    ///< 0: all processors
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "revchain/questions/rig_sensitivity.hpp"
 #include "revchain/questions/sensitivity.hpp"
+#include "revchain/questions/rig_sensitivity.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
 template Sensitivity<double> sensitivity(const Chain<double>&, const Modes<double>&);

@@ -91,8 +91,9 @@ TEST_CASE("modes are counted by the rank of the mass matrix", "[chain]") {
 
 TEST_CASE("a wrong chain is refused, naming the link and the value", "[chain]") {
     CHECK_THROWS_WITH(Chain(Links{}), ContainsSubstring("at least one link"));
-    CHECK_THROWS_WITH(Chain(Links{plummet(1.0, 1.0), plummet(1.0, 1.0), plummet(1.0, -0.5)}),
-                      Catch::Matchers::Equals("revchain::Chain: links[2]: length must be positive and finite, got -0.5"));
+    CHECK_THROWS_WITH(
+        Chain(Links{plummet(1.0, 1.0), plummet(1.0, 1.0), plummet(1.0, -0.5)}),
+        Catch::Matchers::Equals("revchain::Chain: links[2]: length must be positive and finite, got -0.5"));
     CHECK_THROWS_WITH(Chain(Links{plummet(1.0, 0.0)}), ContainsSubstring("links[0]: length"));
     CHECK_THROWS_WITH(Chain(Links{plummet(1.0, nan_value)}), ContainsSubstring("links[0]: length"));
     CHECK_THROWS_WITH(Chain(Links{plummet(nan_value, 1.0)}), ContainsSubstring("links[0]: weight"));

@@ -298,7 +298,6 @@ TEST_CASE("cord: wrong cords, and questions without an answer") {
             }
         }
 
-
     revchain::Progress progress;
     CHECK(revchain::modes(cord, {.count = 4, .progress = &progress}).size() == 4);
     CHECK(progress.fraction() == 1);

@@ -358,7 +358,8 @@ TEST_CASE("cord: wrong questions about branches and swings") {
     CHECK_THROWS_WITH(revchain::steady_shape(cord, {.tip_radius = 1.0}), ContainsSubstring("less than the length"));
     CHECK_THROWS_WITH(revchain::steady_shape(cord, {.top_tension = 1.0}), ContainsSubstring("more than the weight"));
     CHECK_THROWS_WITH(revchain::steady_shape(cord, {.tip_inclination = 1.6}), ContainsSubstring("between 0 and pi/2"));
-    CHECK_THROWS_WITH(revchain::steady_shape(cord, {.conical_height = 0.7}), ContainsSubstring("where mode 1 leaves the vertical"));
+    CHECK_THROWS_WITH(revchain::steady_shape(cord, {.conical_height = 0.7}),
+                      ContainsSubstring("where mode 1 leaves the vertical"));
     CHECK_THROWS_WITH(revchain::steady_shape(cord, {.mode = 2, .tip_radius = 0.9}), ContainsSubstring("is not met"));
     CHECK(revchain::shapes_on_branch(cord, {.mode = 2, .tip_radius = 0.9}).shapes.empty());
     using Function = std::function<double(double)>;

@@ -107,5 +107,7 @@ TEST_CASE("explain names the method that modes takes") {
 }
 
 template <class System>
-concept Explained = requires(const System& system) { explain(system); };
+concept Explained = requires(const System& system) {
+    explain(system);
+};
 static_assert(Explained<Chain<double>> && !Explained<Rig> && !Explained<Cord> && !Explained<Held<Chain<double>>>);

@@ -90,7 +90,8 @@ TEST_CASE("10,000 random rigs driven", "[.slow]") {
     for (const Checked& each :
          {check(5000, 11, {}), check(2000, 12, {.momentum = true}), check(2000, 13, {.stands = true}),
           check(1000, 14, {.extreme = true, .most = 6}), check(5000, 15, {.drag = true})}) {
-        WARN(each.rows << " rigs, " << each.poor << " estimates below a tenth of the error, largest error " << each.worst);
+        WARN(each.rows << " rigs, " << each.poor << " estimates below a tenth of the error, largest error "
+                       << each.worst);
         CHECK(each.poor * 100 <= each.rows);
         CHECK(each.worst <= 1.6e-16);
     }

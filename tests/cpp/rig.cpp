@@ -23,9 +23,9 @@ using revchain::InvalidArgument;
 using revchain::plummet;
 using revchain::Posture;
 using revchain::Rig;
-using revchain::detail::rig_links;
 using revchain::Rigging;
 using revchain::uniform_rod;
+using revchain::detail::rig_links;
 using support::Quad;
 using support::quad;
 using support::Random;
@@ -156,7 +156,8 @@ TEST_CASE("a rig refuses what cannot be", "[rig]") {
     const double infinity = std::numeric_limits<double>::infinity();
     refused({.support = {.stiffness = -1}}, "stiffness of the support must not be negative, got -1");
     refused({.support = {.carriage_weight = infinity}}, "carriage weight must be finite and not negative");
-    refused({.support = {.carriage_weight = 2}}, "the support must have a stiffness (0: it rolls freely): what moves sideways");
+    refused({.support = {.carriage_weight = 2}},
+            "the support must have a stiffness (0: it rolls freely): what moves sideways");
     refused({.support = {.radius = -1}}, "radius of the support must be finite and not negative, got -1");
     refused({.posture = {Posture::stands}}, "posture must be empty or have one entry for each of the 2 links, got 1");
     refused({.flywheels = {{}, {infinity, 0}}}, "links[1]: momentum must be finite, got inf");

@@ -237,8 +237,13 @@ TEST_CASE("governors: what is refused", "[public]") {
 TEST_CASE("governor: all but isochronous, the search ends", "[public]") {
     // spring and balls balance at 1 rad/s at every inclination, apart from gravity
     for (const double gravity : {1e-2, 1e-4, 1e-9, 1e-300}) {
-        const SleeveGovernor hartnell({.ball_mass = 1, .arm = 1, .pivot_offset = 1, .sleeve_arm = 1,
-                                       .spring_stiffness = 2, .spring_force = 2, .gravity = gravity});
+        const SleeveGovernor hartnell({.ball_mass = 1,
+                                       .arm = 1,
+                                       .pivot_offset = 1,
+                                       .sleeve_arm = 1,
+                                       .spring_stiffness = 2,
+                                       .spring_force = 2,
+                                       .gravity = gravity});
         bool complete = false;
         const auto found = hartnell.equilibria(1, &complete);
         CHECK(complete == (gravity >= 1e-2));

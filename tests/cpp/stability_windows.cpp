@@ -74,7 +74,8 @@ TEST_CASE("two verdicts meet at an edge, not at an undecided window shorter than
         for (const Branch& branch : revchain::branches(rig, {.min_conical_height = 1.8}).branches) {
             const auto windows = revchain::stability_windows(rig, branch);
             for (std::size_t i = 1; i + 1 < windows.size(); ++i)
-                CHECK_FALSE((windows[i].verdict == Verdict::undecided && windows[i - 1].verdict != windows[i + 1].verdict &&
+                CHECK_FALSE((windows[i].verdict == Verdict::undecided &&
+                             windows[i - 1].verdict != windows[i + 1].verdict &&
                              windows[i].arc_to - windows[i].arc_from <= 1e-6));
             edges += static_cast<int>(windows.size()) - 1;
         }

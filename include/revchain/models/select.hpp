@@ -156,13 +156,14 @@ Choice<sizeof...(Models)> choice_for(std::string_view function, const std::tuple
     Choice<sizeof...(Models)> choice{estimates(models, kind, question), 0, false};
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const double budget = time_budget.value_or(infinity);
-    auto chosen = best<sizeof...(Models)>(choice.estimates, {}, required_tolerance(question), budget);
+    auto chosen =
+        best<sizeof...(Models)>(choice.estimates, {}, required_tolerance(question), budget);
     if (!chosen)  // no model is within the budget: the cheapest, whatever its accuracy
         chosen = best<sizeof...(Models)>(choice.estimates, {}, infinity, infinity);
     choice.model = chosen.value_or(sizeof...(Models));
-    choice.meets_tolerance = chosen &&
-                             choice.estimates[*chosen].error_bound <= required_tolerance(question) &&
-                             choice.estimates[*chosen].cost <= budget;
+    choice.meets_tolerance =
+        chosen && choice.estimates[*chosen].error_bound <= required_tolerance(question) &&
+        choice.estimates[*chosen].cost <= budget;
     return choice;
 }
 

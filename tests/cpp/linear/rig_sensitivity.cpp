@@ -362,8 +362,7 @@ TEST_CASE("what rig_modes finds: derivatives of its speeds, and the momentum tha
                 // the step squared, and what is left of the speeds' digits
                 CHECK(std::abs(found.momentum[static_cast<Index>(m)] - sense * (more - less) / (2 * step)) <
                       2e-9 * (1 + std::abs(n)));
-                const double momentum =
-                    revchain::momentum_for_speed(rigged.rig(), static_cast<Index>(m), n, 9.8125);
+                const double momentum = revchain::momentum_for_speed(rigged.rig(), static_cast<Index>(m), n, 9.8125);
                 CHECK(std::abs(momentum - static_cast<double>(was)) * std::abs(found.momentum[static_cast<Index>(m)]) <=
                       4e-16 * std::abs(n) * (1 + std::abs(found.momentum[static_cast<Index>(m)])));
             }

@@ -298,7 +298,8 @@ TEST_CASE("a tolerance costs no more than none") {
             }
         // Three modes and more: full accuracy costs less than the counts that this tolerance takes.
         if (count < 3 || !(rtol < 1e-6)) continue;
-        const auto found = modes(chain, {.first = first, .count = count, .rtol = rtol, .method = ModesMethod::bisection});
+        const auto found =
+            modes(chain, {.first = first, .count = count, .rtol = rtol, .method = ModesMethod::bisection});
         CHECK(found.error_bound.maxCoeff() <= models::detail::full_accuracy);
         ++asked;
     }
@@ -369,8 +370,7 @@ TEST_CASE("at an inclination: the theory of small ones is off by no more than it
             const auto chain = rods ? Chain<double>::uniform_rods(n, 2.0) : Chain<double>::uniform_plummets(n, 2.0);
             for (Index mode = 1; mode <= std::min<Index>(n, 4); ++mode)
                 for (const double inclination : {1e-4, 0.01, 0.1, 0.3, 0.7, 1.1, 1.4}) {
-                    const auto exact =
-                        shapes_on_branch(chain, {.mode = mode, .tip_inclination = inclination}, 1);
+                    const auto exact = shapes_on_branch(chain, {.mode = mode, .tip_inclination = inclination}, 1);
                     if (exact.shapes.empty()) continue;
                     const SteadyShape& shape = exact.shapes.front();
                     if (mode == 1 || (3 * mode <= n && mode * mode <= n))
@@ -406,8 +406,7 @@ TEST_CASE("at an inclination: up to mode sqrt(N) of equal links the lowest leans
             const auto last = static_cast<Index>(std::sqrt(static_cast<double>(n)));
             for (const Index mode : {last, last / 2, 2 * last})
                 for (const double inclination : {0.02, 0.3, 0.8, 1.2, 1.4}) {
-                    const auto exact =
-                        shapes_on_branch(chain, {.mode = mode, .tip_inclination = inclination}, 1);
+                    const auto exact = shapes_on_branch(chain, {.mode = mode, .tip_inclination = inclination}, 1);
                     if (exact.shapes.empty()) continue;
                     const double steepest = exact.shapes.front().inclination.cwiseAbs().maxCoeff() / inclination;
                     CAPTURE(rods, n, mode, inclination, steepest);

@@ -21,8 +21,7 @@ TEST_CASE("complex numbers of two words: products and quotients", "[core]") {
         CHECK(size(back - x) <= 4e-31 * size(x));
         CHECK(static_cast<double>(abs(square.real() - (x.real() - x.imag()) * (x.real() + x.imag()))) <=
               4e-32 * size(x) * size(x));
-        CHECK(static_cast<double>(abs(square.imag() - 2 * x.real() * x.imag())) <=
-              4e-32 * size(x) * size(x));
+        CHECK(static_cast<double>(abs(square.imag() - 2 * x.real() * x.imag())) <= 4e-32 * size(x) * size(x));
     }
     const Complex i(CalledWords(0), CalledWords(1));
     CHECK(i * i == Complex(CalledWords(-1)));

@@ -109,7 +109,8 @@ TEST_CASE("parallel_for: an exception reaches the caller, from any thread, and t
                 }
                 wait_until([&] { return thrown.load(); });
                 if (by_caller)
-                    for (;;) revchain::detail::check_interrupt();  // ends by Cancelled, which is not what the caller gets
+                    for (;;)
+                        revchain::detail::check_interrupt();  // ends by Cancelled, which is not what the caller gets
             });
         };
         CHECK_THROWS_AS(run(), InvalidArgument);

@@ -21,8 +21,7 @@ struct Case {
 };
 const Case cases[]{
     {0, 2, std::sqrt(2.0), [](double x) { return x * x - 2; }, [](double x) { return 2 * x; }},
-    {-3, 40, 0.5, [](double x) { return std::exp(x - 0.5) - 1; },
-     [](double x) { return std::exp(x - 0.5); }},
+    {-3, 40, 0.5, [](double x) { return std::exp(x - 0.5) - 1; }, [](double x) { return std::exp(x - 0.5); }},
     {-8, 9, 0.25, [](double x) { return std::atan(8 * x - 2); },
      [](double x) { return 8 / (1 + std::pow(8 * x - 2, 2)); }},
     {0.1, 1e6, 3, [](double x) { return 1 - 3 / x; }, [](double x) { return 3 / (x * x); }},
@@ -55,10 +54,8 @@ TEST_CASE("zeros in double-double", "[core]") {
     const DoubleDouble by_slope =
         zero_between(low, two, [&](const DoubleDouble& x) { return std::pair(x * x - two, two * x); });
     const auto value = [&](const DoubleDouble& x) { return x * x - two; };
-    const DoubleDouble by_value =
-        zero_between(SignChange<DoubleDouble>{{low, value(low)}, {two, value(two)}}, value);
-    for (const DoubleDouble& root : {by_slope, by_value})
-        CHECK(std::abs((root - sqrt(two)).high()) <= 2e-31);
+    const DoubleDouble by_value = zero_between(SignChange<DoubleDouble>{{low, value(low)}, {two, value(two)}}, value);
+    for (const DoubleDouble& root : {by_slope, by_value}) CHECK(std::abs((root - sqrt(two)).high()) <= 2e-31);
 }
 
 TEST_CASE("zeros without a slope, of functions that grow or fall", "[core]") {

@@ -220,7 +220,8 @@ TEST_CASE("elements of any sign in several units are counted as in one", "[linal
         const auto one = revchain::pencil::certified_count<S, 1>(pencil, {shift})[0];
         const auto several = revchain::pencil::certified_count<S, 1>(in_units, {shift})[0];
         const double rough = static_cast<double>(shift);
-        const auto plain = revchain::pencil::count_above<double, 1>(revchain::pencil::rounded<double>(in_units), {rough});
+        const auto plain =
+            revchain::pencil::count_above<double, 1>(revchain::pencil::rounded<double>(in_units), {rough});
         REQUIRE((one.above == several.above && several.proved == one.proved));
         if (one.proved) REQUIRE(plain[0] == one.above);
         proved += one.proved;

@@ -72,7 +72,7 @@ class TautCounts {
    private:
     static Quad abs(Quad x) { return x < 0 ? -x : x; }
 
-    Index first_, end_;  // pins that move
+    Index first_, end_;                                                // pins that move
     std::vector<Quad> stiffness_, next_stiffness_, mass_, next_mass_;  // of a pin, and of it and the next
 };
 

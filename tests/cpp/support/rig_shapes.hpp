@@ -157,7 +157,8 @@ struct Sweep {
             const auto link = rig.chain().link(m);
             const long double W = link.weight, a = link.length, h = link.centroid;
             const long double rho2 = static_cast<long double>(static_cast<double>(link.gyration_ratio)) * a * a;
-            const long double n_H = std::sqrt(static_cast<long double>(gravity) / lambda) * rig.flywheel(m).momentum.high;
+            const long double n_H =
+                std::sqrt(static_cast<long double>(gravity) / lambda) * rig.flywheel(m).momentum.high;
             const long double pull = lambda * (S + (W * h + n_H) / a), turn = W * h / a * (a - h - rho2 / h);
             long double t = t1;
             if (m > 0) {

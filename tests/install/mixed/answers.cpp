@@ -7,7 +7,9 @@
 
 revchain::Vector<double> ANSWERS() {
     std::vector<double> numbers;
-    const auto add = [&](const auto& found) { numbers.insert(numbers.end(), found.data(), found.data() + found.size()); };
+    const auto add = [&](const auto& found) {
+        numbers.insert(numbers.end(), found.data(), found.data() + found.size());
+    };
     for (int n = 2; n <= 30; n += 7) {
         std::vector<revchain::Link<double>> links;
         for (int m = 0; m < n; ++m)

@@ -5,8 +5,8 @@
 #include <complex>
 #include <optional>
 
-#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/called_words.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/scalar.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {

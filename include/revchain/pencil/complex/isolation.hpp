@@ -2,8 +2,8 @@
 #pragma once
 
 #include "revchain/numeric/interval.hpp"
-#include "revchain/pencil/complex/word.hpp"
 #include "revchain/pencil/complex/roots_in_lanes.hpp"
+#include "revchain/pencil/complex/word.hpp"
 
 /// This header computes values of det Q with error bounds, and distances between approximate roots,
 /// to prove all roots.

@@ -99,8 +99,7 @@ TEST_CASE("rigs: the function of the diagram's proof and its derivatives stay wi
     int narrow = 0;
     for (int i = 0; i < 160; ++i) {
         const Rig rig = random_rig(random, 1 + i % 4, i % 8);
-        const revchain::finite::BranchSystem system(rig, support::rig_shapes::gravity,
-                                                    revchain::Rotation::forward);
+        const revchain::finite::BranchSystem system(rig, support::rig_shapes::gravity, revchain::Rotation::forward);
         const int side = i % 3 == 0 ? -1 : 1;
         const revchain::finite::EnclosedDiagram diagram(system, side);
         const double unit = std::ldexp(1.0, -system.units.length_exponent), length = rig.chain().total_length() * unit;
@@ -155,7 +154,8 @@ TEST_CASE("rigs: points of branches balance, and cuts of diagrams are the proved
         for (const Branch& branch : diagram.branches) {
             rest += branch.birth == BranchBirth::rest, born += branch.birth == BranchBirth::fold;
             CHECK((branch.birth == BranchBirth::rest) == (rig.support().radius > 0 && branch.mode == 1));
-            for (std::size_t at = branch.birth == BranchBirth::vertical ? 1 : 0; at < branch.size(); at += 1 + branch.size() / 7) {
+            for (std::size_t at = branch.birth == BranchBirth::vertical ? 1 : 0; at < branch.size();
+                 at += 1 + branch.size() / 7) {
                 const auto shape = branch.shape(at);
                 const auto truth = support::rig_shapes::truth_of(rig, shape.conical_height);
                 // offsets are doubles: a spring drawn far out rounds by so much more of the weight

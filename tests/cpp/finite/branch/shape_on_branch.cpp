@@ -204,10 +204,11 @@ TEST_CASE("bodies of any centroid: a shape of a branch is found by the size of i
         inwards += shape.inclination[0] < 0;
         asked += 2;
         const double end = 0.9 * height;
-        const bool by_tip = has(
-            revchain::shapes_on_branch(chain, {.mode = mode, .tip_inclination = tip, .min_conical_height = end}), shape);
-        const bool by_radius =
-            has(revchain::shapes_on_branch(chain, {.mode = mode, .tip_radius = radius, .min_conical_height = end}), shape);
+        const bool by_tip =
+            has(revchain::shapes_on_branch(chain, {.mode = mode, .tip_inclination = tip, .min_conical_height = end}),
+                shape);
+        const bool by_radius = has(
+            revchain::shapes_on_branch(chain, {.mode = mode, .tip_radius = radius, .min_conical_height = end}), shape);
         CHECK(by_tip);
         CHECK(by_radius);
         missed += !by_tip + !by_radius;

@@ -388,22 +388,20 @@ TEST_CASE("line densities: narrow features are found wherever they are", "[finit
         const auto piece = [](double from, double to, double value) {
             return LineDensity::Piece{(from + to) / 2, (to - from) / 2, {value}};
         };
-        const auto exact =
-            std::make_shared<LineDensity>(length, std::vector{piece(0, low, 1), piece(low, high, 1 + extra),
-                                                              piece(high, length, 1)});
+        const auto exact = std::make_shared<LineDensity>(
+            length, std::vector{piece(0, low, 1), piece(low, high, 1 + extra), piece(high, length, 1)});
         for (const double s : {low / 2, low + wide / 3, high + (length - high) / 9, length})
-            weights = std::max(weights, std::abs(density->weight_below(s) /
-                                                     (s + extra * std::clamp(s - low, 0.0, high - low)) -
-                                                 1) /
-                                            (2e-15 + 1e-16 * extra));
+            weights = std::max(
+                weights, std::abs(density->weight_below(s) / (s + extra * std::clamp(s - low, 0.0, high - low)) - 1) /
+                             (2e-15 + 1e-16 * extra));
         CHECK(density->error(low / 2) < 1e-15);
         if (i >= 40) continue;
         const double tip = length * any(random);
-        const auto found = critical_heights(cord(length, tip, density), 3), truth =
-            critical_heights(cord(length, tip, exact), 3);
+        const auto found = critical_heights(cord(length, tip, density), 3),
+                   truth = critical_heights(cord(length, tip, exact), 3);
         for (Index j = 0; j < 3; ++j)
-            heights = std::max(heights, std::abs(found[j] / truth[j] - 1) /
-                                            (4e-15 + 2 * density->rounding_at_jumps(found[j])));
+            heights = std::max(heights,
+                               std::abs(found[j] / truth[j] - 1) / (4e-15 + 2 * density->rounding_at_jumps(found[j])));
     }
     CAPTURE(weights, heights);
     CHECK(weights <= 1);
@@ -425,10 +423,9 @@ TEST_CASE("line densities: smooth steps and bumps are found wherever they are", 
         CAPTURE(at, wide, size, p, step);
         const LineDensity density(f, 1);
         const auto log_cosh = [](double x) { return std::abs(x) + std::log1p(std::exp(-2 * std::abs(x))); };
-        const double whole = 1 / (p + 1) + size * (step ? 0.5 + wide / 2 * (log_cosh((1 - at) / wide) -
-                                                                          log_cosh(at / wide))
-                                                        : wide * std::sqrt(pi) / 2 *
-                                                              (std::erf((1 - at) / wide) + std::erf(at / wide)));
+        const double whole =
+            1 / (p + 1) + size * (step ? 0.5 + wide / 2 * (log_cosh((1 - at) / wide) - log_cosh(at / wide))
+                                       : wide * std::sqrt(pi) / 2 * (std::erf((1 - at) / wide) + std::erf(at / wide)));
         worst = std::max(worst, std::abs(density.total() / whole - 1) - density.error(1));
     }
     CAPTURE(worst);

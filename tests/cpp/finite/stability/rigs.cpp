@@ -214,7 +214,8 @@ TEST_CASE("weak dashpots change exponents at the rate of `internal_damping`; the
     }
     // without mass a dashpot's pin has no acceleration of its own
     const Chain<double> threads({plummet(1.0, 1.0), plummet(0.0, 0.5), plummet(2.0, 0.7)});
-    const Rig light(threads, {.pins = {{}, {.damping = 0.2}, {}}}), other(threads, {.pins = {{.damping = 0.2}, {}, {}}});
+    const Rig light(threads, {.pins = {{}, {.damping = 0.2}, {}}}),
+        other(threads, {.pins = {{.damping = 0.2}, {}, {}}});
     const auto found = revchain::steady_shapes(Rig(threads, {}), {.conical_height = 0.5}).shapes.at(0);
     CHECK(revchain::stability(light, found).exponents.size() > 0);
     CHECK_THROWS_WITH(revchain::stability(other, found), ContainsSubstring("pins must have mass"));

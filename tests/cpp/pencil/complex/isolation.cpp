@@ -200,8 +200,7 @@ TEST_CASE("roots that meet are not claimed to be apart", "[linalg]") {
     for (const double apart : {0.0, 1e-18, 1e-9, 1e-3}) {
         SignedPencil<S> pencil;  // (x - 1)(x - 1 - apart)
         pencil.quadratic = true;
-        pencil.elements = {
-            SignedElement<S>::of(S(1.0), -(S(2.0) + S(apart)), -(S(1.0) + S(apart)), S(0.0), S(0.0))};
+        pencil.elements = {SignedElement<S>::of(S(1.0), -(S(2.0) + S(apart)), -(S(1.0) + S(apart)), S(0.0), S(0.0))};
         const auto spectrum = revchain::pencil::complex_spectrum(pencil, 0, [](double) {});
         CAPTURE(apart);
         CHECK(spectrum.proved == (apart > 1e-12));
