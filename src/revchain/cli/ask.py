@@ -338,7 +338,7 @@ _GOVERNOR = "ask for its equilibria: revchain equilibria {path}"
 
 
 def without_answer(question: str, system: System, path: Path) -> str:
-    """The reason why a question has no answer for a system, and the question to ask instead; empty if it has one."""
+    """The reason why a question has no answer for a system, and what to ask or change instead; empty if it has one."""
     if isinstance(system, SleeveGovernor):
         kind, instead = "governor", "" if question == "equilibria" else _GOVERNOR
     else:

@@ -91,7 +91,8 @@ class Straight:
         return max([*reach, WHEEL * self.system.has_momentum])
 
     def room(self, narrow: float = 1.0) -> tuple[float, float]:
-        """Return how far parts reach to the left and names to the right, in columns `narrow` times narrower."""
+        """Return the room left of the axis for parts and right of it for names, in data units, in columns `narrow` times
+        narrower."""
         far, longest = self.beside(), max((len(line) + 2 for name in self.names() for line in name.split("\n")), default=0)
         left = max(SPACING / 2, far + 0.2 + 0.9 * (self.system._support is not None))
         return left, max(SPACING / 2, far + narrow * longest * LETTER * SPACING / COLUMN)

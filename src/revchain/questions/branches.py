@@ -89,7 +89,8 @@ def branch(
 
     Notes
     -----
-    Method: pseudo-arclength continuation in all inclinations and the height. A step is halved unless Newton's method
+    Method: pseudo-arclength continuation in all inclinations and the height; for a held system in the forces at its
+    lower end and the height. A step is halved unless Newton's method
     contracts at once, the direction turns little, and the middle of the step lies on the branch too. If no link has
     ``pendulum_length > length``, the half waves must not change either. This is a check, not a proof. For a cord the
     curve is that on which crossing `mode` of the axis lies at the support. Cost: O(N) for each point. Source: Greenhill

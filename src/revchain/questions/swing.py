@@ -107,8 +107,9 @@ def swing(
     Links of a `Rig` do not turn about their own axes: a wheel acts only by its momentum (a driven wheel by that of its
     spin). Still fluid acts by its buoyancy and its added mass.
 
-    Method: heights and shapes as in `modes`, in double-double, with angles in double-double, so that beats of many years
-    keep their phase. Accuracy: 1e-15 of the amplitudes. Cost: 0.6 microseconds for each link and mode, and 3 ns for each
+    Method: heights, shapes and angles in double-double, so that beats of many years keep their phase; for a cord, angles
+    in double, wrong by 1e-16 times the number of swings, which ``truncation_error`` does not include. Accuracy: else
+    1e-15 of the amplitudes. Cost: 0.6 microseconds for each link and mode, and 3 ns for each
     link, mode and time.
 
     With damping, springs at pins, a trolley or a moving support: each motion of `modes` is driven by its part of the

@@ -343,8 +343,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         _vertical_points,
     )
     bob_slope: Field[Floats] = Field(
-        "For a cord with a bob: the slope ``d offset / d arc_length`` along the bob, its inclination where the offset of the "
-        "cord's end is 1, shape (k,). An AttributeError for all others.",
+        "For a cord with a bob: the slope ``d offset / d arc_length`` along the bob, minus its inclination, where the offset "
+        "of the cord's end is 1, shape (k,). An AttributeError for all others.",
         lambda m: _bob_slope(m),
     )
     conical_height_low: Field[Floats | None] = Field(

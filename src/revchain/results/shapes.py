@@ -410,8 +410,8 @@ class SteadyShape(
         energy at constant speed (except for a rotation) is then a minimum and stable in any such fluid; any other is
         undecided.
 
-        Method for cords: Galerkin's method with polynomials on panels along the cord. The exponents of chains of N
-        links differ from these by an amount proportional to ``1 / N**2``.
+        Method for cords: Galerkin's method with polynomials on panels along the cord. The exponents of
+        ``cord.chain(N)`` differ from these by an amount proportional to ``1 / N**2``.
 
         Examples
         --------
@@ -687,10 +687,11 @@ class SteadyShapes(Results[SteadyShape], Moving, row="shape", title="{_heading}"
     lower_pull, upper_pull = (_arrays_of_each(name, ("axis",)) for name in ("lower_pull", "upper_pull"))
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2; 0 without gravity.", fact=True)
     angular_speed: Field[float | None] = Field(
-        "The turning speed, rad/s; None if the shapes were selected by another number.", fact=True
+        "The turning speed, rad/s; None if the shapes were selected by an inclination, tip radius or tension.", fact=True
     )
     conical_height: Field[float | None] = Field(
-        "Conical height of the speed, m; 0 without gravity; None if the shapes were selected by another number.",
+        "Conical height of the speed, m; 0 without gravity; None if the shapes were selected by an inclination, tip "
+        "radius or tension.",
         fact=True,
     )
     complete: Field[bool] = Field(

@@ -83,8 +83,7 @@ class WorstCase(Result, row="mode", title="{_words}", notes=("{_remarks}",)):
         digits=2,
     )
     lowest_at: Field[dict[str, Floats]] = Field(
-        "Data at which each lowest speed is reached, by name or path, shape (k, N), or (k,) for a datum that is not of a "
-        "link."
+        "Data at which each lowest speed is reached, by keyword or path: shape (k, N) for a keyword for links, else (k,)."
     )
     highest_at: Field[dict[str, Floats]] = Field("Data at which each highest speed is reached, in the same form.")
     boxes: Field[Whole] = Field("Number of parts of the box that were examined for each mode, shape (k,).")

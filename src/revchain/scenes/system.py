@@ -141,7 +141,7 @@ class Numbers:
         return self.value(key, given, key, sign)
 
     def read(self, table: Table | UnsetType, kind: str = "") -> Given:
-        """All numbers given in the table, by key; what is heavy under the keys of masses, or else of weights.
+        """All numbers given in the table, by key. Weights become masses if `by_mass`, else masses become weights.
 
         `kind` comes before the key in the name of the quantity, as in "pin_stiffness".
         """

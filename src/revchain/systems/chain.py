@@ -221,7 +221,7 @@ class Chain(System):
         Notes
         -----
         The conical heights tend to those of a uniform `Cord` with an error proportional to 1 / count**2. Memory: O(1).
-        Source: Greenhill (1908), section 8 (17).
+        Source: Greenhill (1908), section 8 (21), for uniform rods.
 
         Examples
         --------
