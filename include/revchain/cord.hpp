@@ -59,7 +59,8 @@ struct CordModes {
     /// costs as `offset`.
     [[nodiscard]] double slope(Index j, double s) const;
     [[nodiscard]] Vector<double> slope(Index j, const Vector<double>& s) const;
-    /// d offset / ds along the bob, minus its inclination. Throws InvalidArgument for a cord without one.
+    /// d offset / ds along the bob, minus its inclination. Throws InvalidArgument for a cord
+    /// without one.
     [[nodiscard]] double bob_slope(Index j) const;
     /// Arc lengths at which the mode at index j crosses the axis, ascending. Held ends, and where
     /// the line of a bob crosses it, are not listed.
@@ -97,9 +98,9 @@ struct CordModesOptions {
 /// rule (10,000 cords with weights 1e16 apart, tests/cpp/cord_particles.cpp). Offsets and slopes
 /// are within 1e-15 times the mode number of the largest one, with series within 1e-14 for the
 /// first 7 modes. Cost: closed forms take 0.04 to 8 microseconds a mode; power series mostly take
-/// 0.2 to 2 ms for each mode up to the last one requested. Throws InvalidArgument as `modes` of a chain, for `all_modes` (there are
-/// infinitely many), and with series for modes above number 1e5, a density too rough or a tip too
-/// heavy.
+/// 0.2 to 2 ms for each mode up to the last one requested. Throws InvalidArgument as `modes` of a
+/// chain, for `all_modes` (there are infinitely many), and with series for modes above number 1e5,
+/// a density too rough or a tip too heavy.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordModes modes(const Cord& cord, const CordModesOptions& options = {});
 
