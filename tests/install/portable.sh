@@ -11,7 +11,7 @@ site=build/portable/site python=${VIRTUAL_ENV:-.venv}/bin/python
   -Cbuild-dir=build/portable/tree . 2>&1 | { grep -v 'WARNING: Target directory' || true; }
 export PYTHONPATH=$root/$site
 "$python" -c 'import revchain; assert "portable" in revchain.__file__, revchain.__file__'
-tests=(tests/python/test_{modes,batch,claims,models,rig_modes,response,sensitivity,steady_shapes,rig_shapes,branches}.py
+tests=(tests/python/test_{modes,batch,accuracy,models,rig_modes,response,sensitivity,steady_shapes,rig_shapes,branches}.py
   tests/python/test_{cord_modes,held,light_links}.py)
 
 # Folder of the consumer, component.
