@@ -118,6 +118,7 @@ JOBS = {
     "rigs with flywheels": "rigs with flywheels, the same",
 }
 SHAPES = [job for job in JOBS if job.endswith("all modes with shapes")]
+WITH_SHAPES = [job for job in JOBS if "alone" not in job]
 MILLION = ("ten slowest of a million, heights alone", "ten slowest of a million, with shapes")
 
 
@@ -413,10 +414,10 @@ CLAIMS = (
           compiled_faster),
 )
 HOLDS = (
-    Holds("README.md", "With 20 or more links it finds modes faster than NumPy and SciPy",
-          lambda r: min(ratios(r, JOBS, SIZES[2:])) >= 1),
-    Holds("docs/index.md", "faster than NumPy and SciPy for 20 or more links",
-          lambda r: min(ratios(r, JOBS, SIZES[2:])) >= 1),
+    Holds("README.md", "With 20 or more links it finds modes and shapes faster than NumPy and SciPy",
+          lambda r: min(ratios(r, WITH_SHAPES, SIZES[2:])) >= 1),
+    Holds("docs/index.md", "faster than NumPy and SciPy for modes and shapes of 20 or more links",
+          lambda r: min(ratios(r, WITH_SHAPES, SIZES[2:])) >= 1),
     Holds("docs/index.md", "more than 50 times as fast as SciPy for the ten slowest modes of a million links",
           lambda r: r.value("ordinary", "ratio", job=MILLION[0]) >= 50),
     Holds("docs/benchmarks.md", "The error of every mode of every kind is at most 0.5 ulp",
