@@ -25,9 +25,10 @@ struct Condensed {
         // Long pendulums are not condensed. Light links above leave little to condense. Light links
         // below and modes of high number have short waves, which need many blocks.
         const double few = kind.growth < -5 && kind.size < 2000 ? 0.35 : 1;
+        const double grown = std::clamp(kind.growth, 0.0, detail::real(kind.size) / 40);
         return 3e-5 + 1.7e-9 * detail::real(kind.size) +
-               detail::real(kind.size) * (7.5e-7 + 1.5e-7 * count) * kind.long_pendulums +
-               3e-7 * detail::real(kind.light) + 2e-5 * std::max(0.0, kind.growth) +
+               detail::real(kind.size) * (1e-6 + 2e-7 * count) * kind.long_pendulums +
+               3e-7 * detail::real(kind.light) + 2e-5 * grown +
                few * (5e-5 * count * (1 + count / 20) +
                       7.5e-5 * skipped / (1 + 150 * skipped / detail::real(kind.size)));
     }
