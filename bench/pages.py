@@ -99,8 +99,10 @@ def about(r):
     caches = ", ".join(f"{name} {m[name]}" for name in ("L1d cache", "L2 cache", "L3 cache") if name in m)
     peers = ", ".join(f"{name} {number}" for name, number in a["versions"].items())
     vectors = "".join(f", {name}" for name in m["vectors"])
-    again = {name: part["revision"] for name, part in a["parts"].items() if "revision" in part}
-    but = "".join(f" ({name}: {revision})" for name, revision in again.items())
+    again = {}
+    for name, part in a["parts"].items():
+        again.setdefault(part.get("revision", a["revision"]), []).append(name)
+    but = "".join(f" ({', '.join(names)}: {it})" for it, names in again.items() if it != a["revision"])
     lines = (f"All results on this page are of one run of `{a['command']}` on {a['date']}, revision {a['revision']}{but}.",
              f"Processor: {m['processor']}, {m['cores']} cores{vectors} ({caches}). Compiler: {a['compiler']};",
              f"flags `{a['flags']['portable']}`, native build `{a['flags']['native']}`.", f"Versions: {peers}.")

@@ -38,9 +38,8 @@ def test_pages_are_as_the_results(tools, repository):
     assert not complaints, "\n".join(complaints)
     stale = [page for page, text in texts.items() if text != (repository / page).read_text(encoding="utf-8")]
     assert not stale, "run bench/pages.py"
-    if (results.folder / "about.json").exists():  # a whole run has all
-        assert not missing, "\n".join(missing)
-        assert list(results.about["parts"]) == [part.name for part in tools[1].PARTS]
+    assert not missing, "\n".join(missing)
+    assert list(results.about["parts"]) == [part.name for part in tools[1].PARTS]
 
 
 def test_a_result_that_changes_makes_a_page_stale(tools, tmp_path):
