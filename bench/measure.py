@@ -208,7 +208,7 @@ def main():
     if whole:
         for file in folder.iterdir():
             file.unlink()
-    elif note.exists():  # parts again, of a run of the same day and machine; theirs is another revision, it may be
+    elif note.exists():  # parts again, of a run of the same day and machine, maybe at another revision
         before = json.loads(note.read_text(encoding="utf-8"))
         if all(before[key] == found[key] for key in ("command", "date", "machine")):
             own = {"revision": found["revision"]} if found["revision"] != before["revision"] else {}

@@ -446,7 +446,8 @@ HOLDS = (
           lambda r: r.said("models", r"(\d+) of \d+ predictions")[0] == "0"),
     Holds("include/revchain/finite/cord/continuous_chain.hpp", "length/height 500 take 1.8 ms (bench/continuous.cpp)",
           lambda r: near(r.value("continuous", "milliseconds", method="revchain"), 1.8)),
-    Holds("include/revchain/models/finite_amplitude.hpp", "Cost: 4 to 10 microseconds a link and mode (bench_tradeoff: 5 to 1000 links)",
+    Holds("include/revchain/models/finite_amplitude.hpp",
+          "Cost: 4 to 10 microseconds a link and mode (bench_tradeoff: 5 to 1000 links)",
           lambda r: all(4 <= float(row["took_us"]) / int(row["links"]) / int(row["modes"]) <= 10
                         for row in r.rows("tradeoff", model="finite amplitude")
                         if row["took_us"] and int(row["links"]) > 2)),

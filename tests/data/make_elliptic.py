@@ -2,8 +2,8 @@
 """Elliptic functions and integrals to 20 digits, for tests/cpp/special: python make_elliptic.py, a minute.
 
 The modulus is given by its complement kappa', a double; kappa^2 = 1 - kappa'^2 takes as many digits as it needs.
-elliptic_jacobi.csv: am, sn, cn, dn and int dn^2 at u; elliptic_complete.csv: K, E, D, B and Pi(n); elliptic_incomplete.csv: F, E, D and Pi(n) up to
-an amplitude. Jacobi's functions are mpmath's (theta series of the nome); the integrals Carlson's, mpmath's too: another
+elliptic_jacobi.csv: am, sn, cn, dn and int dn^2 at u; elliptic_complete.csv: K, E, D, B and Pi(n);
+elliptic_incomplete.csv: F, E, D and Pi(n) up to an amplitude. Jacobi's functions are mpmath's (theta series of the nome); the integrals Carlson's, mpmath's too: another
 road than that of the library (theta series of the complementary nome; Bulirsch; Carlson's where mpmath is used for them).
 """
 import math

@@ -465,7 +465,8 @@ def count_modes(
         return _core.count_modes_at_speed(core, *together(caller, angular_speed=speed, gravity=g))[()]
     one = one_positive(caller, "gravity", gravity)
     if kind == "rig" and of.is_damped:
-        raise ValueError(f"{caller}: a rig with dashpots or linear drag has damped motions, which no speed separates; take them from modes(rig)")
+        what = "a rig with dashpots or linear drag has damped motions, which no speed separates"
+        raise ValueError(f"{caller}: {what}; take them from modes(rig)")
     if kind == "rig" and speed is not None:
         return _core.count_rig_modes(of._under(one), speed, False, one)[()]
     height = positive(caller, "conical_height", height) if speed is None else one / positive(caller, "angular_speed", speed) ** 2

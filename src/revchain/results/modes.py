@@ -170,8 +170,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
     Heights and bounds are computed at once. Shapes, nodes, residuals and sensitivities are computed when they are first
     read, then stored; shapes, residuals and the nodes of links also when the result is saved. Arrays are read-only. A
     window may contain no modes (k = 0). ``modes[0]`` is a row: one number or array of each field. For a system held
-    straight at both ends, distances start at its lower end. With the support off the axis, offsets are from the vertical below it, where the
-    system hangs at rest. What the fields say about dashpots holds for linear drag, too.
+    straight at both ends, distances start at its lower end. With the support off the axis, offsets are from the vertical
+    below it, where the system hangs at rest. What the fields say about dashpots holds for linear drag, too.
 
     Notes
     -----
@@ -343,8 +343,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         _vertical_points,
     )
     bob_slope: Field[Floats] = Field(
-        "For a cord with a bob: the slope ``d offset / d arc_length`` along the bob, minus its inclination, where the offset "
-        "of the cord's end is 1, shape (k,). An AttributeError for all others.",
+        "For a cord with a bob: the slope ``d offset / d arc_length`` along the bob, minus its inclination, where the "
+        "offset of the cord's end is 1, shape (k,). An AttributeError for all others.",
         lambda m: _bob_slope(m),
     )
     conical_height_low: Field[Floats | None] = Field(

@@ -25,7 +25,8 @@ class SceneError(ValueError):
         Name of the file; without one ``"scene"`` or ``"study"``.
     problems : tuple of (line, column, key, reason)
         All problems in the order of the file; after a syntax error that cannot be repaired, only those up to it. Lines
-        and columns count from 1; both are 0 without a file. A key is a path such as ``links[2].length``, with tables counted from 0; it is empty for the whole file.
+        and columns count from 1; both are 0 without a file. A key is a path such as ``links[2].length``, with tables
+        counted from 0; it is empty for the whole file.
     key, reason : str
         Key and reason of the first problem.
 

@@ -75,8 +75,8 @@ def sweep(
     xarray.Dataset
         The results by name, with SI units in ``attrs["units"]``. There is one dimension for each grid, one named
         ``sample`` for random numbers, and one each for the modes, shapes, speeds, orders or equilibria found. NaN (0 for
-        whole numbers) stands for a missing result. The variable ``status`` is 1 for success, 2 if a result is not proved, 3 for a refused point.
-        The numbers are bitwise equal for any executor, number of workers and chunk.
+        whole numbers) stands for a missing result. The variable ``status`` is 1 for success, 2 if a result is not proved,
+        3 for a refused point. The numbers are bitwise equal for any executor, number of workers and chunk.
 
     Raises
     ------

@@ -583,7 +583,7 @@ class Rig(System):
 
     @property
     def has_momentum(self) -> bool:  # type: ignore[override]
-        """Whether a wheel spins relative to its link, or has momentum, at rest: the two directions of rotation then differ."""
+        """Whether a wheel spins relative to its link, or has momentum, at rest: the two directions then differ."""
         return self.flywheels is not None and bool(self._momentum(STANDARD_GRAVITY).any())
 
     @property
