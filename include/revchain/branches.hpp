@@ -155,7 +155,8 @@ struct DiagramOptions {
     std::optional<double> max_angular_speed{};  ///< rad/s
     std::size_t max_points = 10'000;            ///< of each branch
     double max_step = 0.1;                      ///< along the arc
-    int lists = 16;                 ///< heights, evenly spaced in the logarithm, with a proved list
+    int lists = 16;  ///< number of heights, evenly spaced in their logarithm, at which all shapes
+                     ///< are listed, with proofs as `budget` allows
     long budget = 3'000'000;        ///< of each list, see SteadyShapesOptions
     long proof_budget = 1'000'000;  ///< link evaluations in the proof; with `thorough`
     double gravity = conical_pendulum::standard_gravity;  ///< with `max_angular_speed`

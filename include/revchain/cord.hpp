@@ -140,9 +140,9 @@ struct CordSensitivity {
 /// the weight below a point, tip included, changes
 ///     lambda = integral of y^2 dV / I   by   - integral of dV y' (2 y + lambda y') / I,
 /// where I = integral of V y'^2. Heights are proportional to the length; otherwise they depend only
-/// on ratios of weights (and tension). Accuracy: 1e-12 of the height over the datum
-/// (tests/cpp/held_cord.cpp). Cost: that of some hundred offsets and slopes a mode. Throws
-/// InvalidArgument for a cord with a bob.
+/// on ratios of weights (and tension). Accuracy: 1e-12 of the height over the datum; 2e-9, as far
+/// as differences tell, for a power with a tip (tests/python/test_held_cord.py). Cost: that of some
+/// hundred offsets and slopes a mode. Throws InvalidArgument for a cord with a bob.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordSensitivity sensitivity(const CordModes& modes);
 

@@ -40,7 +40,7 @@ struct ForcedMotion {
     Vector<double> error_estimate;               ///< of every offset, over the largest; not proved
     Vector<Index> modes_below;                   ///< slower modes of the rig without its dashpots
     std::vector<char> resonant;                  ///< whether it cannot be told from a resonance
-    Vector<std::complex<double>> support_force;  ///< pull of the chain on what moves or carries it
+    Vector<std::complex<double>> support_force;  ///< pull on the support; on the moved end of a spring
 };
 
 /// Forced motion, after free motions have died away: Q(i n) q = load with the matrices of

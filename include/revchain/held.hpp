@@ -40,7 +40,7 @@ struct HeldBy {
     Support upper{};  ///< support of a chain's upper end
 
     bool on_axis() const noexcept { return lower.radius == 0 && upper.radius == 0; }
-    /// True if every steady shape is plane: an end of radius 0 passes no torque about the axis.
+    /// True if no torque about the axis can bend a chain out of a plane: radius 0 passes none.
     bool planar() const noexcept { return lower.radius == 0 || upper.radius == 0; }
     bool firm() const noexcept { return lower.is_firm() && upper.is_firm(); }
 };
@@ -110,11 +110,11 @@ struct HeldCordShapesOptions {
 /// tension at the upper end. Other shapes of a chain come last among those with as many half waves.
 ///
 /// `missing` lists the numbers of half waves without a shape. `complete` is true if it is proved
-/// that there is no other shape with 1 to `max_half_waves` half waves. For a cord this is possible
-/// only at a span without gravity. Otherwise `undecided` has the ranges of the lowest link's
-/// inclination (rad) in which other shapes may exist in the plane of the axis and the ends. If both
-/// radii differ from 0, the arms can twist the chain out of that plane; such shapes are not
-/// searched and `complete` is false.
+/// that there is no other shape with 1 to `max_half_waves` half waves in the plane of the axis and
+/// the ends; others are not searched. For a cord this is possible only at a span without gravity.
+/// Otherwise `undecided` has the ranges of the lowest link's inclination (rad) in which other
+/// shapes may exist in that plane. If both radii differ from 0, the arms can twist the chain out of
+/// it, and `complete` is false; otherwise shapes out of it have a link that no pull turns.
 ///
 /// Forces in `HeldShape` and `HeldCordShape` are multiplied by the conical height. Divide by
 /// `conical_height` for the unit of the weights; without gravity multiply by the square of the

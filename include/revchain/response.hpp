@@ -42,7 +42,8 @@ struct Response {
     Vector<Index> modes_below;     ///< slower modes, proved; without a resonant one
     std::vector<char> reversed;    ///< whether the free end is opposite to the support
     std::vector<char> resonant;    ///< whether the speed cannot be told from a resonance
-    Vector<double> support_force;  ///< horizontal pull of the chain on its support, outwards
+    Vector<double> support_force;  ///< horizontal pull on the support (a moved spring: on its
+                                   ///< far end), outwards
     Vector<double> support_force_error;  ///< bound, in the unit of the weights
 };
 

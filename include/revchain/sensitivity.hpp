@@ -63,7 +63,7 @@ struct Sensitivity {
 /// its share of y^T K y, so a longer link, in proportion, never lowers a height. Accuracy: every
 /// entry is within its error bound, which is proved; measured 0.51 ulp of the entry, or 1e-28 of
 /// the largest entry if that is more (tests/cpp/sensitivity.cpp). The heights in `modes` need not
-/// be accurate. Cost: 1 microsecond a link and mode; O(N k) memory. Throws InvalidArgument if the
+/// be accurate. Cost: 0.5 microseconds a link and mode; O(N k) memory. Throws InvalidArgument if the
 /// chain's weights are more than 1e123 apart.
 template <Real T>
 [[nodiscard]] Sensitivity<T> sensitivity(const Chain<T>& chain, const Modes<T>& modes);

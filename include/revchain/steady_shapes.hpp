@@ -84,7 +84,7 @@ struct RigShapesOptions {
 /// The shapes found, and whether others may exist.
 struct SteadyShapes {
     std::vector<SteadyShape> shapes;          ///< by half waves, then lowest inclination
-    std::vector<InclinationRange> undecided;  ///< where there may be others; empty if complete
+    std::vector<InclinationRange> undecided;  ///< where there may be others, in one plane
     bool complete = false;                    ///< proved: no shape is missing
     long cells = 0;                           ///< number of parts of the range that were examined
 };
@@ -108,6 +108,9 @@ struct SteadyShapes {
 /// at 1e-5 of a link's length, 6e-7 at 1e-7. `complete` is proved too. If it is false, `undecided`
 /// has the ranges where shapes may be missing: at exactly a critical speed or a fold, or if the
 /// budget is used up, as for chains of 20 plummets or more at heights near 1/1000 of their length.
+/// It is also false, with nothing undecided, if a link between the lowest and the topmost could
+/// lean to any side under no load: lambda (W h + a S) <= W h (l - a), or <= W h (a - l) if it may
+/// stand. There may then be shapes that lie in no plane with the axis; these are not searched.
 /// If each link has one inclination for its load, a scan adds the shapes it finds there. At heights
 /// below 2^-50 (9e-16) of the longest length (rounded up to a power of 2) nothing is listed and
 /// `complete` is false. There tensions would lose their digits: double-double resolves offsets to
@@ -141,7 +144,8 @@ REVCHAIN_DECLARE
 /// With b > 0 tangents of both signs are searched. The pull of a link is tension + n
 /// momentum/length. If it is negative (a wheel against the rotation, a float), the link leans
 /// against its load and is followed along each inclination. `complete` is also false if a link
-/// leans against its load in a rig of so many links that the budget is spent, or if lambda E equals
+/// leans against its load in a rig of so many links that the budget is spent, if the topmost link
+/// of a support off the axis or on a spring could lean to any side, or if lambda E equals
 /// the total moving weight, to rounding. Pins may then be at any distance, and the search ends far
 /// beyond the chain's reach.
 /// Throws InvalidArgument as for chains, but a negative speed is the backward direction. Also

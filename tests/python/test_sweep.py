@@ -440,12 +440,15 @@ def test_what_is_damaged_is_computed_again(ended):
     flipped = bytearray(paths[4].read_bytes())
     flipped[len(flipped) // 2] ^= 1
     paths[4].write_bytes(flipped)
+    encrypted = bytearray(paths[5].read_bytes())
+    encrypted[encrypted.index(b"PK\x01\x02") + 8] ^= 1  # says the flag, for which zipfile has a RuntimeError
+    paths[5].write_bytes(encrypted)
     (folder / "0000000000055-0000000000065.npz").write_bytes(paths[0].read_bytes())  # there are no such points
     (folder / ".0000000000000-0000000000010-0123456789ab.npz").write_bytes(b"half")
     with pytest.warns(UserWarning, match="cannot be read, and its points are computed again") as warned:
         found, resumed = with_resumed(given, out="a.csv")
-    assert len(warned) == 5 and all("\n" not in str(each.message) for each in warned)
-    assert resumed == 20 and files() == ["a.csv"]
+    assert len(warned) == 6 and all("\n" not in str(each.message) for each in warned)
+    assert resumed == 10 and files() == ["a.csv"]
     same(found, rc.sweep(given))
 
 

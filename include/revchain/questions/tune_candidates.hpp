@@ -133,10 +133,16 @@ TuneRange tune_range(std::string_view place, const Chain<double>& chain, Index n
         const Wide<double> others = chain.weight_below(m) - Wide<double>(W);
         least = std::max(least, needed - static_cast<double>(others));
     }
-    if (!(least < range.high)) refuse("a link would stand, not hang, up to", least);
-    if (!(range.low < most)) refuse("the link would stand, not hang, from", most);
+    if (!(least < range.high))
+        refuse("a link would stand, not hang, up to " + in_digits(least) +
+                   "; the high end must exceed that",
+               range.high);
+    if (!(range.low < most))
+        refuse("the link would stand, not hang, from " + in_digits(most) +
+                   " on; the low end must be below that",
+               range.low);
     range.low = std::max(range.low, least), range.high = std::min(range.high, most);
-    if (!(range.low < range.high)) refuse("a link would stand, not hang, beyond", range.high);
+    if (!(range.low < range.high)) refuse("a link would stand, not hang, everywhere", range.high);
     range.start = std::clamp(present, range.low, range.high);
     return range;
 }

@@ -248,7 +248,7 @@ def seconds_lost_per_day(deflection: ArrayLike, centroid: ArrayLike, radius_of_g
     _core.two_plummets_shapes,
     "inclinations 4 ulp for the data as given, also close to a fold and to the vertical",
     "section 2 (4)",
-    cost="20 microseconds for each shape",
+    cost="10 microseconds for each shape",
     made=_shapes,
 )
 def two_plummets_shapes(

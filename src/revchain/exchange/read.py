@@ -46,7 +46,7 @@ def from_mjcf(
     Warns
     -----
     ModelWarning
-        If something was left out or changed, or if gravity is not the standard one. The warning lists each element with its
+        If something was left out, changed or guessed (which body is the ground), or if gravity is not the standard one. The warning lists each element with its
         line, and has the gravity to give to questions.
 
     Raises
@@ -137,7 +137,8 @@ def from_urdf(
     Warns
     -----
     ModelWarning
-        If something was left out or changed. URDF has no gravity: the warning has that of MuJoCo.
+        If something was left out, changed or guessed (which link is the ground). URDF has no gravity: the warning has that
+        of MuJoCo.
 
     Raises
     ------

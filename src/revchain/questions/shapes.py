@@ -89,7 +89,10 @@ def steady_shapes(
         end at a positive offset is given (if that is 0, the one with a positive inclination of the lowest inclined
         link). If the support is carried round there are no mirror images; outwards is positive. The order is by half
         waves, then by inclination of the lowest link. ``complete`` is true if it is proved that none is missing among
-        those asked for. Inclinations are within the proved ``error_bound``, usually 2.2e-16. A chain has no shapes in any
+        those asked for. It is false, with nothing in ``undecided``, if a link between the lowest and the topmost could lean
+        to any side under no load, that is, if the conical height is at most ``W h (l - a) / (W h + a S)`` (``a - l`` if it
+        may stand; S is the weight hung below): shapes may then leave the plane with the axis, and such shapes are not
+        searched for. Inclinations are within the proved ``error_bound``, usually 2.2e-16. A chain has no shapes in any
         posture if the height exceeds that of its first mode.
 
         Cords: ordered by half waves. ``complete`` is true if a theorem counts the shapes: there is then one for each
@@ -97,18 +100,17 @@ def steady_shapes(
         ``s**p`` without a tip, or with a tip if p is below 0. It also holds if at most one critical height lies above
         the given one. Otherwise a shape that exists only between two scanned offsets is missed.
 
-        Held systems: shapes of 1 to `max_half_waves` half waves, ordered by half waves. Among shapes with equally many,
-        the one that is reached from the nearly straight chain without gravity, as the ends approach and gravity then
-        grows, comes first. Each link points along the pull on it, as a thread does. Of two mirror images the one whose
-        lowest link leads outwards is given; ends off the axis have no mirror images. Half waves are counted about the
-        line between the ends (with springs: between their rest positions). ``missing`` lists the half waves without a
-        shape. Held chains: ``complete`` is true if it is proved that there are no other shapes with these numbers of
-        half waves; else ``undecided`` gives the inclinations of the lowest link at which others may start. The proof
-        usually succeeds for one half wave of up to 9 links with ``l <= a`` and mass at every pin; with more links or half
-        waves it often leaves a part undecided. If both ends are off the
-        axis, a shape need not lie in a plane. Only shapes in the plane of the ends are searched for, and ``complete``
-        is false. Held cords: ``complete`` is true for a span without gravity, which has one shape for each number of
-        half waves.
+        Held systems: shapes of 1 to `max_half_waves` half waves, ordered by half waves. Among shapes with equally many, the
+        one that is reached from the nearly straight chain without gravity, as the ends approach and gravity then grows,
+        comes first. Each link points along the pull on it, as a thread does. Of two mirror images the one whose lowest link
+        leads outwards is given; ends off the axis have no mirror images. Half waves are counted about the line between the
+        ends (with springs: between their rest positions). ``missing`` lists the half waves without a shape. Held chains:
+        ``complete`` is true if it is proved that there are no other shapes with these numbers of half waves in the plane of
+        the axis and the ends; else ``undecided`` gives the inclinations of the lowest link at which others may start. The
+        proof usually succeeds for one half wave of up to 9 links with ``l <= a`` and mass at every pin; with more links or
+        half waves it often leaves a part undecided. Only shapes in that plane are searched for. If both ends are off the
+        axis, others are common, and ``complete`` is false. Otherwise they have a link that no pull turns. Held cords:
+        ``complete`` is true for a span without gravity, which has one shape for each number of half waves.
 
     Raises
     ------

@@ -79,7 +79,7 @@ def tune(
     between : (low, high), optional
         Range of the search, if one is needed. If left out: from a thousandth to a thousand times the present value (that of
         the whole chain for a massless link); for a centroid or a radius of gyration from 0 to the length of the link or
-        the present value. For a tension this is said of its excess over the weight; a span is searched up to the length.
+        the present value. For a tension this is said of its excess over the weight; a span is searched from 0 to the length.
 
     Returns
     -------
@@ -92,7 +92,8 @@ def tune(
     ValueError
         If not exactly one of speed and height is given; if a number is out of its range, the path is unknown, a link
         would be inverted everywhere in the range, or there is no such mode; if a system held at a span comes without
-        `top_tension`, or another system with it; if `between` is given where no search is needed.
+        `top_tension`, or another system with it; if `between` is given for a datum that has only one value; if gravity is varied
+        for a height or at a span.
     TypeError
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
 

@@ -137,8 +137,8 @@ class UnavailableError(AttributeError, ValueError):
 class Result(Unchangeable):
     """The base of all results: immutable values that can be pickled; two of one class are equal if their parts are.
 
-    A subclass lists its data as `Field`s, from which the table, dictionaries, files and equality follow. Where a field
-    is computed by a compiled result, the subclass says in `_from_parts` how that is made from the parts of a loaded one.
+    A subclass lists its data as `Field`s, from which the table, dictionaries, files and equality follow. If a
+    compiled result computes fields, `_from_parts` of the subclass makes that compiled result from the parts of a file.
     Arguments of the class statement:
 
     - `row`: name of what a row of the table is, such as ``"mode"``;

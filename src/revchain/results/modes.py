@@ -484,7 +484,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
     ) -> Uncertainty:
         """Return the standard deviations of conical heights and speeds for given standard deviations of the data.
 
-        With ``worst=True`` also return the lowest and highest speeds of all systems whose data lie within the tolerances.
+        With ``worst=True`` also return proved bounds of the speeds of all systems whose data lie within the tolerances.
 
         Parameters
         ----------

@@ -91,8 +91,8 @@ class Response(Result, Moving):
     )
     resonant: Field[Flags] = Field("Whether the speed cannot be separated from a resonance, shape (...).")
     support_force: Field[Numbers] = Field(
-        "Horizontal outward pull of the chain on the moving support, N or in the unit of the weights, shape (...); complex with "
-        "dashpots.",
+        "Horizontal outward pull of the chain on its support, N or in the unit of the weights, shape (...); if the far end of "
+        "the support's spring is moved, the pull of the spring on it. Complex with dashpots.",
     )
     support_force_error: Field[Floats | None] = Field(
         "Proved bound of the error of `support_force`, in its unit; None if there is an estimate of offsets only."

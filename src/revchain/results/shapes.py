@@ -697,8 +697,9 @@ class SteadyShapes(Results[SteadyShape], Moving, row="shape", title="{_heading}"
     complete: Field[bool] = Field(
         "Whether it is proved that no shape is missing among those searched for: for a chain or rig the shapes in its own "
         "posture, or with ``hanging_only=False`` all shapes; for a hanging cord all shapes; for a held system shapes with "
-        "up to `max_half_waves` half waves. False if both ends of a held chain are off the axis: shapes may then leave "
-        "their plane, and such shapes are not searched for. False if only one branch was searched (`mode`).",
+        "up to `max_half_waves` half waves, in the plane of the axis and the ends. False if shapes may leave the plane with "
+        "the axis, which are not searched for: if both ends of a held chain are off the axis, and if a link of a chain or "
+        "rig could lean to any side under no load. False if only one branch was searched (`mode`).",
         fact=True,
     )
     hanging_only: Field[bool] = Field(
@@ -726,7 +727,15 @@ class SteadyShapes(Results[SteadyShape], Moving, row="shape", title="{_heading}"
         if self.missing:
             waves = f"{', '.join(map(str, self.missing))} half wave{'s' * (list(self.missing) != [1])}"
             number = f"{number}; none {'found ' * (not self.complete)}with {waves}"
+        if self._links_lean:
+            return f"{number}, proved complete in a plane"
         return f"{number}, proved complete" if self.complete else f"{number}; there may be more"
+
+    @property
+    def _links_lean(self) -> bool:
+        """Whether all shapes in a plane with the axis are known and a link of a chain or rig could lean out of it."""
+        hangs = not (self.system._is_cord or self.system._is_held) and self.mode is None
+        return hangs and not self.complete and not len(self.undecided)
 
     def _posture(self) -> str:
         """The posture of the shapes in the list, ``hanging`` or as ``given``; empty if the list is of all postures.
@@ -748,7 +757,7 @@ class SteadyShapes(Results[SteadyShape], Moving, row="shape", title="{_heading}"
         if not self._posture():
             return words
         others = "with links above their pins" if self._posture() == "hanging" else "in other postures"
-        return f"{words}; {others} there may be more" if self.complete else f"{words}, also {others}"
+        return f"{words}; {others} there may be more" if self.complete or self._links_lean else f"{words}, also {others}"
 
     @property
     def _note(self) -> str:
@@ -767,12 +776,14 @@ class SteadyShapes(Results[SteadyShape], Moving, row="shape", title="{_heading}"
 
     @property
     def _leaves_plane(self) -> str:
+        if self._links_lean:
+            return "a link could lean to any side under no load: shapes that leave the plane are not searched for"
         if getattr(self.system, "is_planar", True):
             return ""
         return "both ends are off the axis: shapes that leave the plane of the ends are not searched for"
 
     def _is_good(self) -> bool:
-        return self.complete or self.mode is not None or hasattr(self.system, "span")
+        return self.complete or self._links_lean or self.mode is not None or hasattr(self.system, "span")
 
 
 MOST_NAMED = 4  # links in a note

@@ -27,7 +27,7 @@ _COLUMNS = ("mass", "length", "centroid", "radius_of_gyration")
 
 
 class WorstCase(Result, row="mode", title="{_words}", notes=("{_remarks}",)):
-    """Proved lowest and highest speeds of k modes whose data lie anywhere in a box of tolerances.
+    """Proved bounds of the speeds of k modes whose data lie anywhere in a box of tolerances.
 
     No system in the box has a speed outside of `lowest_angular_speed` and `highest_angular_speed`. The speeds
     `lowest_reached` and `highest_reached` belong to systems in the box, whose data are `lowest_at` and `highest_at`.

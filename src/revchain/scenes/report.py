@@ -203,6 +203,9 @@ def _of_shapes(found: SteadyShapes) -> list[Verdict]:
     elif found.complete:
         more = " Shapes with links above their pins were not searched for." if posture else ""
         said.append(Verdict("proved", f"Complete: there is no other {posture}shape at this speed.{more}"))
+    elif found._links_lean:
+        more = " Shapes that leave the plane were not searched for."
+        said.append(Verdict("proved", f"There is no other {posture}shape in a plane with the axis at this speed.{more}"))
     elif not shortfall(found):
         said.append(Verdict("open", "There may be more shapes: completeness is not proved."))
     if len(found):

@@ -271,7 +271,7 @@ def outputs_of(
 
 
 def said(plan: Plan, name: str) -> dict[str, tuple[str, Callable[[Any], Any]]]:
-    """The variables in which a study stores an output: by name the unit, and a function of the numbers."""
+    """The variables in which a study stores an output: by name the unit, and the function that converts to it."""
     found: dict[str, tuple[str, Callable[[Any], Any]]] = {}
     if plan.all_of_modes or OUTPUTS[name].question != "modes":
         found[name] = OUTPUTS[name].unit, np.asarray

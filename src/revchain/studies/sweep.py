@@ -231,7 +231,7 @@ def _read_chunks(folder: Path, rows: Rows) -> None:
             with open(path, "rb") as file, np.load(file) as found:
                 for name, array in rows.items():  # the status is the last one
                     array[start:stop] = found[name]
-        except (ValueError, KeyError, EOFError, OSError, BadZipFile) as error:
+        except (ValueError, KeyError, EOFError, OSError, RuntimeError, BadZipFile) as error:  # RuntimeError: of zipfile
             reason = f"{path} cannot be read, and its points are computed again: {error}"
             warnings.warn(reason.replace("\n", " "), stacklevel=3)
             path.unlink()

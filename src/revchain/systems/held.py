@@ -128,7 +128,7 @@ class Held(System):
 
     @property
     def is_planar(self) -> bool:
-        """Whether every steady shape must lie in a plane with the axis: the radius of at least one end is 0."""
+        """Whether no torque about the axis can bend a chain out of a plane: the radius of at least one end is 0."""
         return self.lower.radius == 0.0 or self.upper.radius == 0.0
 
     @property

@@ -235,7 +235,7 @@ class Diagram {
     void check_list(double height) {
         const auto list = ask_.list(height);
         result_.looked_at.push_back(height);
-        result_.consistent &= list.complete;
+        result_.consistent &= list.undecided.empty();
         std::vector<int> met(list.shapes.size(), 0);
         std::size_t crossings = 0;
         const auto meet = [&](const Branch& branch) {

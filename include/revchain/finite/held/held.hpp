@@ -15,7 +15,7 @@ namespace revchain::inline REVCHAIN_BUILD {
 struct HeldShapes {
     std::vector<HeldShape> shapes;            ///< by half waves
     std::vector<int> missing;                 ///< numbers of half waves without a shape found
-    bool complete = false;                    ///< no shape is missing (proved); false unless planar
+    bool complete = false;                    ///< proved: none is missing in the plane
     std::vector<InclinationRange> undecided;  ///< of the lowest link, for further planar shapes
     long cells = 0;                           ///< number of cells examined
 };
@@ -101,7 +101,7 @@ class HeldChain {
         return held_ends(supports_, wide_.units, height, part, by_part_);
     }
     bool is_symmetric() const { return supports_.lower.radius == 0 && supports_.upper.radius == 0; }
-    /// Returns true if every shape is planar. With two arms a torque about the axis may bend it.
+    /// Returns false with two arms: a torque about the axis may bend the chain out of its plane.
     bool planar() const { return supports_.lower.radius == 0 || supports_.upper.radius == 0; }
 
     const std::vector<Direction<double>>& kept() const { return kept_; }

@@ -42,6 +42,25 @@ bool hangs_at_one_inclination(const AnyLinks& links, const Interval<double>& hei
     return single_valued(links.template links_for_sweep<double>(), height);
 }
 
+/// Returns true if every shape lies in a plane with the axis. Another shape has a link that leans
+/// to any side under no load, lambda pull + length cross cos = 0 (standing: -). The lowest link and
+/// the topmost one of a firm support on the axis are in the plane of the others even then.
+template <class AnyLinks, class Options>
+bool lies_in_a_plane(const AnyLinks& links, const Interval<double>& height,
+                     const Options& options) {
+    const auto swept = links.template links_for_sweep<double>();
+    const auto postures = links.postures();
+    const auto& end = links.upper_end();
+    const std::size_t last = end.is_symmetric() && !end.yields() ? swept.size() - 1 : swept.size();
+    for (std::size_t m = 1; m < last; ++m) {
+        const Interval<double> stiffness = height * swept[m].pull, turning = turning_of(swept[m]);
+        const bool hangs = postures[m] == Posture::hangs;
+        if ((hangs || !options.hanging_only) && !is_positive(stiffness + turning)) return false;
+        if ((!hangs || !options.hanging_only) && !is_positive(stiffness - turning)) return false;
+    }
+    return true;
+}
+
 /// Returns brackets of shapes in ranges of tangents for which a proof of completeness failed. There
 /// is at least one shape between two tangents at which `sign(tangent)`, the sign of the support's
 /// offset, is certain and opposite. The sign is sampled at the ends of the ascending `ranges`, and
@@ -347,6 +366,7 @@ Result listed(const AnyLinks& links, const Fine& scaled, const Options& options)
         throw_not_thorough("steady_shapes",
                            std::ldexp(as_double(scaled), links.units.length_exponent));
     conclude(result);
+    result.complete &= lies_in_a_plane(links, enclosed<double>(scaled), options);
     return result;
 }
 

@@ -97,7 +97,9 @@ SteadyShapes steady_shapes(const Rig& rig, const Fine& height, const Fine& speed
     for (const InclinationRange& range : other.undecided)
         result.undecided.push_back({-range.high, -range.low});
     result.cells += other.cells;
+    const bool complete = result.complete && other.complete;
     conclude(result);
+    result.complete = complete;
     return result;
 }
 

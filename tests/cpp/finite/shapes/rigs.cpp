@@ -265,7 +265,8 @@ TEST_CASE("bells carried round, the lowest link in the axis: met from both sides
     const double b = 0.8;  // sin d = 0.8 where cos d = 0.6
     const auto found = revchain::steady_shapes(Rig(chain, {.support = carried_round(b)}),
                                                {.conical_height = lambda, .hanging_only = false}, revchain::thorough);
-    CHECK(found.complete);
+    CHECK(found.undecided.empty());
+    CHECK_FALSE(found.complete);  // the topmost link may lean out of the plane
     Measured measured;
     const Rig rig(chain, {.support = carried_round(b)});
     check_shapes(rig, lambda, found, 1, measured);
@@ -294,7 +295,7 @@ TEST_CASE("rods on end, carried round: every list proved, and no shape in it twi
                     const auto found = revchain::steady_shapes(rig, {.angular_speed = 2 * std::numbers::pi * turns},
                                                                revchain::thorough);
                     CAPTURE(size, each, turns, b);
-                    CHECK(found.complete);
+                    CHECK(found.undecided.empty());
                     REQUIRE(!found.shapes.empty());
                     for (std::size_t i = 0; i < found.shapes.size(); ++i)
                         for (std::size_t j = 0; j < i; ++j) {
