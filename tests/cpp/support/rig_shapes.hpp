@@ -79,7 +79,7 @@ inline void check_forces(const Rig& rig, const QuadRig::Balance& exact, const St
 /// Every shape of a list is one, within its bound.
 inline void check_shapes(const Rig& rig, double height, const SteadyShapes& found, int sense, Measured& measured) {
     const QuadRig truth = truth_of(rig, height, sense);
-    ++measured.lists, measured.incomplete += !found.complete;
+    ++measured.lists, measured.incomplete += !found.undecided.empty();
     for (const SteadyShape& shape : found.shapes) {
         ++measured.shapes;
         CHECK(truth.balance(state_of(shape)).worst <= 1e-14);
@@ -112,7 +112,7 @@ inline bool listed(const SteadyShapes& found, const QuadRig::State& state, bool 
 /// No zero that Newton's method finds from random starts is missing.
 inline void check_by_random_starts(const Rig& rig, double height, const SteadyShapes& found, int sense, int starts,
                                    Random& random, long& met) {
-    if (!found.complete) return;
+    if (!found.undecided.empty()) return;
     const QuadRig truth = truth_of(rig, height, sense);
     const bool symmetric = rig.support().radius == 0;
     for (int i = 0; i < starts; ++i) {
@@ -224,7 +224,7 @@ inline int check_by_scan(const Rig& rig, double height, const SteadyShapes& foun
 
 inline void print(const char* what, const Measured& m) {
     if (std::getenv("MEASURE"))
-        std::printf("%s: %ld lists, %ld not complete, %ld shapes, error %.3g, bound %.3g, residual %.2g\n", what,
+        std::printf("%s: %ld lists, %ld undecided, %ld shapes, error %.3g, bound %.3g, residual %.2g\n", what,
                     m.lists, m.incomplete, m.shapes, m.error, m.bound, m.residual);
 }
 
