@@ -135,6 +135,24 @@ def test_what_was_changed_in_a_rig_is_found_again(path, seed):
     assert again.angular_speed[same] == pytest.approx(speed, rel=1e-12)
 
 
+@pytest.mark.parametrize("more", [{"pins": rc.Pin(stiffness=2.0)}, {"pins": rc.Pin(damping=0.5)}, {"drag": 0.3}])
+def test_stiffness_and_momentum_beside_springs_and_dashpots_are_searched(more):
+    def rig(stiffness, momentum):
+        wheels = rc.Flywheel(momentum=[momentum, 0.1]) if momentum is not None else None
+        support = rc.Support(stiffness=stiffness, mass=1.0)
+        return rc.Rig(rc.Chain(mass=[1.0, 1.0], length=1.0), support=support, flywheels=wheels, **more)
+
+    given = {"vary": "support.stiffness", "mode": 1, "angular_speed": rc.modes(rig(80.0, None)).angular_speed[0]}
+    found = rc.tune(rig(50.0, None), **given)
+    assert found.status == "found" and found.value == pytest.approx(80.0, rel=1e-12) and not found.complete
+    if "pins" in more and more["pins"].damping is None:
+        speeds = rc.modes(rig(80.0, 0.3)).angular_speed
+        given = {"vary": "flywheels[0].momentum", "mode": 1, "angular_speed": speeds[speeds > 0][0]}
+        assert rc.tune(rig(80.0, 0.2), **given).value == pytest.approx(0.3, rel=1e-12)
+        with pytest.raises(ValueError, match="revchain.tune: give between, .* the present value is 0"):
+            rc.tune(rig(80.0, 0.0), **given)
+
+
 def test_a_value_past_a_jump_of_the_numbers_is_none():
     """Where a float lets links fall the modes that are left change their numbers: no value is there."""
     floating = rc.Rig(PAIR, support=rc.Support(stiffness=60.0, mass=0.5), flywheels=rc.Flywheel(momentum=[0.5, 0.0]), displaced=rc.Displaced(mass=0.1))

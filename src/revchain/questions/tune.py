@@ -51,7 +51,8 @@ def tune(
         Path to the datum that may change; all others are constant:
 
         - ``"length"``: length of the whole chain or cord, which keeps its proportions; also in a rig or a held system.
-        - ``"mass"`` (``"weight"``): mass of the whole chain in a rig or a held system, or of a cord without its tip.
+        - ``"mass"`` (``"weight"``): mass of the whole chain in a rig or a held system, or of a cord without its tip and its
+          point masses.
         - ``"links[k].NAME"``: datum of a link of a chain (also in a rig or a held system); k is the name of the link
           (``"links[hook block].length"``) or its index, from 0 for the first one listed (see `Chain.order`). NAME is
           ``mass`` (``weight``), ``length`` (of a point mass at its lower pin and of a uniform rod
@@ -108,8 +109,8 @@ def tune(
 
     The speeds of a chain, a cord and a held system given by weight rise with the root of gravity, which gives one value.
 
-    A rig has at most one stiffness, one momentum and one spin of a link for each speed, computed in double-double to
-    1e-15; the modes of the new rig give the number of the mode.
+    A rig without springs at pins and damping has at most one stiffness of its support, one momentum and one spin of a
+    link for each speed, computed in double-double to 1e-15; the modes of the new rig give the number of the mode.
 
     All other data of rigs, cords and held systems are searched: the speed is computed at 65 values and at extrema
     between them, and each pair of neighbours that encloses the wanted speed is bisected. The error bound is that of two
@@ -265,7 +266,7 @@ def _one(system: Any, datum: Datum, tuned: Any, value: float | None, bound: floa
 
 
 def _formed(rig: Rig, datum: Datum, mode: int, speed: float, gravity: float) -> Tuned | None:
-    """The only stiffness, momentum or spin for a speed; None for another datum."""
+    """The only stiffness, momentum or spin for a speed; None for another datum, and with springs at pins or damping."""
     under, per, link = rig._under(gravity), rig._force(gravity), datum.link
     of: Callable[[], float]
     if datum.path == "support.stiffness":
@@ -279,6 +280,8 @@ def _formed(rig: Rig, datum: Datum, mode: int, speed: float, gravity: float) -> 
             raise ValueError(f"{_CALLER}: flywheels[{link}] has no moment of inertia, so its spin has no effect; vary another")
         of = lambda: gravity / inertia * _core.momentum_for_speed(under, link, speed, gravity)  # noqa: E731
     else:
+        return None
+    if rig._has_pins:
         return None
     value, tuned = None, rig
     with suppress(ValueError):  # none is finite, or of a stiffness positive
@@ -314,6 +317,8 @@ def _searched(
         return there / speed - 1, bound * there / speed + 2.0**-52
 
     low, high = _range(datum) if between is None else _ends(between, datum)
+    if between is None and not low < high:
+        raise ValueError(f"{_CALLER}: give between, the range of the search: the present value is 0")
     if not -np.inf < low < high < np.inf:
         raise ValueError(f"{_CALLER}: between must be finite, and its high end must exceed the low one, got {low:g} and {high:g}")
     off: dict[float, float] = {}

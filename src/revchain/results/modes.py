@@ -491,7 +491,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         data : dict, optional
             Standard deviations by the path of the datum, as in `tune` and `fit`:
             ``{"links[load].mass": "5 %", "support.stiffness": "1 kN/m"}``; a number, or text with a unit or in percent. The
-            path ``links[k].length`` of a point mass at its lower pin or of a uniform rod is its ``length_in_proportion``.
+            speeds of a rig must have a derivative by the datum. The path ``links[k].length`` of a point mass at its lower
+            pin or of a uniform rod is its ``length_in_proportion``.
         mass, weight, length, centroid, radius_of_gyration, length_in_proportion : array_like, optional
             Standard deviation of the quantity of the links: a number for all links, or shape (N,). Shape (N, N) is a
             covariance of the links, with variances on its diagonal. Text such as ``"5 %"`` is relative to each link's datum,

@@ -19,7 +19,7 @@ template <class S>
 struct Link {
     S length;  ///< a
     S pull;    ///< sigma = (W h + a S)/a, S the weight hung below; positive
-    S cross;   ///< X = W (h (a - h)/a^2 - rho^2/a^2): 0 for a plummet, positive where l < a
+    S cross;   ///< X = W (h (a - h)/a^2 - rho^2/a^2): 0 for a plummet, positive where 0 < l < a
     S moment;  ///< W h/a: the weight at the lower pin, or the moment W h over a
     S rest;    ///< W (a - h)/a: the weight at the upper pin
 };
