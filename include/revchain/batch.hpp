@@ -57,8 +57,8 @@ struct BatchOptions {
 /// Method: in float and double, one chain to a SIMD lane (pencil/batch/spectrum.hpp). `modes`
 /// solves the other chains one by one: those for which the lanes prove nothing, those with massless
 /// links or centroids at or above the pin, and all chains in other scalars. Accuracy, measured up
-/// to N = 100 (tests/cpp/batch.cpp): 2.8 ulp for plummets and rods, 4.2 for other links; in ten
-/// thousand random chains of 1 to 6 links, 6. Counts verify heights to 16 + N/4 ulp. Results are
+/// to N = 100 (tests/cpp/batch.cpp and larger samples): 4.5 ulp for plummets and rods, 6 for other
+/// links. Counts verify heights to 16 + N/4 ulp. Results are
 /// bitwise the same for any number of threads and any order of the chains; another `count` or
 /// processor may change last digits. Cost: 0.4 microseconds for all modes of ten links. Memory: the
 /// result, and a few numbers for each link of 16 chains a thread.

@@ -25,8 +25,8 @@
 ///     shape.angular_speed();                       // 2.34160 rad/s: the free end at 2 m
 ///
 /// The branch of a mode leaves the vertical at the mode's critical speed. It may turn back at folds
-/// and pass one speed several times. An isolated branch begins in a fold, as the speed grows, and
-/// never reaches the vertical.
+/// and pass one speed several times. An isolated branch never reaches the vertical. As the speed
+/// grows, it begins in a fold or, on a spring, with a link that turns horizontal.
 namespace revchain::inline REVCHAIN_BUILD {
 
 template <class System>

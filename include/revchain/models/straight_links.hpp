@@ -16,8 +16,8 @@
 ///     J = J_{p+1}(j),   I = int_0^j J_{p+2}(t)^2 dt/t,
 ///
 /// j = j_{p,k}. c is (L^2/12) int S y''^2 / int S y'^2, S the tension; it is the error of linear
-/// finite elements. d is of the next order, 1/N^2. At a free end with little weight it is log N/N^2
-/// (p = 0) or N^-(2+p) (p < 0). 0 <= d <= `next_order` is measured.
+/// finite elements. d is of the next order, 1/N^2. If the density at the free end is not 0, it is
+/// log N/N^2 (p = 0) or N^-(2+p) (p < 0). 0 <= d <= `next_order` is measured.
 namespace revchain::inline REVCHAIN_BUILD::models::detail {
 
 /// Returns c to about 13 digits, from the sum I = (J_n^2 + 2 (J_{n+1}^2 + J_{n+2}^2 + ...))/(2 n),

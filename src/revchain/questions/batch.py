@@ -62,13 +62,14 @@ def conical_heights(
     ------
     ValueError
         If a number is not real and finite, or the shapes cannot be broadcast; if `Chain` would refuse one of the chains
-        (the message names chain, link and number); if `threads` is negative; if `centroid` comes without exactly one of
-        `pendulum_length` and `radius_of_gyration`; if `count` exceeds the modes of a chain; if heights of a chain
-        cannot be proved to half the digits.
+        (the message names the chain, and the link and number at fault); unless exactly one of `mass` and `weight` is given;
+        if `threads` is negative; if `centroid` comes without exactly one of `pendulum_length` and `radius_of_gyration`, or
+        one of these without `centroid`; if `count` is less than 1 or exceeds the modes of a chain, or is left out and
+        chains have different numbers of modes; if heights of a chain cannot be proved to half the digits.
 
     Notes
     -----
-    Accuracy: 2.8 ulp (6e-16) for plummets and rods of up to 100 links, 5 ulp at worst if weights
+    Accuracy: 4.5 ulp (1e-15) for plummets and rods of up to 100 links, 6 ulp at worst if weights
     span 1e12; counts verify the number of each mode. Cost for all modes of a chain: 0.25 microseconds with ten plummets,
     0.4 with ten rods. Chains with massless links, or with centroids at or above the pin, are solved one by one as by
     `modes`, at 10 to 100 times the cost. Other Python threads can run meanwhile.

@@ -63,8 +63,8 @@ def branch(
         Largest number of points; ``end`` is ``budget`` if it is reached. A held system ignores it and stops after 3000
         steps.
     max_step : float, optional
-        Largest step between two points, in units of ``Branch.arc``. For a held system: largest relative change of the
-        forces at its end and of the conical height.
+        Largest step between two points, in units of ``Branch.arc``; the first step of a chain or rig from the vertical
+        may be 0.1. For a held system: largest relative change of the forces at its end and of the conical height.
 
     Returns
     -------
@@ -91,8 +91,9 @@ def branch(
     -----
     Method: pseudo-arclength continuation in all inclinations and the height; for a held system in the forces at its
     lower end and the height. A step is halved unless Newton's method
-    contracts at once, the direction turns little, and the middle of the step lies on the branch too. If no link has
-    ``pendulum_length > length``, the half waves must not change either. This is a check, not a proof. For a cord the
+    contracts at once, the direction turns little, and the middle of the step lies on the branch too. For a chain without
+    links of ``pendulum_length > length`` or ``centroid < 0``, the half waves must not change either. This is a check, not
+    a proof. For a cord the
     curve is that on which crossing `mode` of the axis lies at the support. Cost: O(N) for each point. Source: Greenhill
     (1908), section 8 (4), (12).
 
@@ -156,8 +157,8 @@ def branches(
         Direction of rotation; only a rig with flywheels depends on it.
     budget : int, optional
         Limit of the work. The list of all shapes may visit this many links at each of 16 speeds (see `steady_shapes`).
-        The proof that no branch is missing may use a third of this number. A visit takes 0.1 to 1 microsecond. Not used
-        for cords and held systems.
+        The proof that no branch is missing may use a third of this number, with the support off the axis two thirds.
+        A visit takes 0.1 to 1 microsecond. Not used for cords and held systems.
     hanging_only : bool, optional
         Chains and rigs: whether to leave out branches with a link above its upper pin (for a rig: with other links
         inverted than those of the rig). If false, the branches of all ``2**N`` postures are found; N at most 10.
@@ -170,10 +171,10 @@ def branches(
     -------
     Branches
         A sequence of branches. First come those that leave the vertical, slowest first (with the support off the axis
-        the one from rest), then the isolated ones, which start at a fold, slowest first. Those of a held system are
-        ordered by half waves. For a cord ``complete`` is true if a theorem counts the shapes (see `steady_shapes`) and
-        every branch was followed to its end. Those of held systems have no ``complete``; `steady_shapes` can prove a
-        list at one speed.
+        the one from rest), then the isolated ones, slowest first. Most isolated ones come from the largest speed and turn
+        back at a fold. Those of a held system are ordered by half waves. For a cord ``complete`` is true if a theorem
+        counts the shapes (see `steady_shapes`) and every branch was followed to its end. Those of held systems have no
+        ``complete``; `steady_shapes` can prove a list at one speed.
 
         With ``hanging_only=False`` the branches of the system's own posture come first, then those of each other posture.
         `Branch.system` is the `Rig` with the links of the posture inverted, and ``mode`` counts its modes. ``complete`` is
@@ -192,9 +193,10 @@ def branches(
 
     Notes
     -----
-    A listed shape that matches no branch lies on an isolated branch, which is then followed in both directions.
-    ``consistent`` is true if all lists are proved complete, their shapes match the branches one to one, and no branch stops
-    early, as at a slack link.
+    A listed shape that matches no branch lies on an isolated branch, which is then followed from that shape to its end.
+    ``consistent`` is true if the shapes of each list match the branches one to one, and no branch stops early, as at a slack
+    link. Each list must be proved to have all shapes in a plane with the axis. Lists of cords are scanned, not proved; of
+    their branches only those of modes must not stop early.
 
     An isolated branch that is a closed loop can begin and end between two of the 16 speeds, so that no list contains it.
     Interval arithmetic therefore splits the plane of conical height and tangent of the lowest link until each part has
@@ -207,10 +209,11 @@ def branches(
     axis, and only the straight one if it is on the axis. If stiffness times conical height is less than the weight that
     moves, a spring at the support cannot balance it, and nothing is proved; ``remark`` gives these heights.
 
-    A link becomes horizontal only at infinite speed, or at a speed where a flywheel takes its tension, so a branch never
-    leaves its posture. All shapes in any posture are therefore on the branches of the ``2**N`` rigs in which some of the
-    links are inverted, and with ``hanging_only=False`` each of these diagrams is computed. ``consistent`` then refers to
-    the proved lists of every posture. The heights `looked_at` are those at which all postures without a proof were listed.
+    A link becomes horizontal only at infinite speed, where a flywheel takes its tension, or where the stretch of a spring
+    at the support becomes infinite. So a branch never leaves its posture. All shapes in any posture are therefore on the
+    branches of the ``2**N`` rigs in which some of the links are inverted, and with ``hanging_only=False`` each of these
+    diagrams is computed. ``consistent`` then refers to the proved lists of every posture. The heights `looked_at` are
+    those at which all postures without a proof were listed.
 
     Cost for equal plummets down to a conical height of 1/200 of the length: three 5 ms, five 25 ms, eight on threads of
     length a, to 5 sqrt(g/a): 0.1 s; for twenty equal rods, 1 m in all, to 20 rad/s: 0.04 s. All postures of plummets down

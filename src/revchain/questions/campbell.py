@@ -47,7 +47,7 @@ def campbell(
         Multiples of the speed; those listed twice are taken once.
     half_waves : int
         Number of half waves of the shape. Of several shapes with this number it is the one whose free end is farthest
-        out; with the support off the axis, the one that begins at rest.
+        out. With the support off the axis and one half wave, that is the shape from rest if all links hang in tension.
     frame : {"free", "driven"}
         Frame, as in `SteadyShape.stability`.
     gravity : float, optional
@@ -64,7 +64,8 @@ def campbell(
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
     ValueError
         If `system` is a `Cord` or a `Held`; if there are fewer than two speeds, or they are not positive, finite and
-        ascending; if `orders` is empty, or has another number than a positive whole one; if `steady_shapes` or
+        ascending; if `orders` is empty, or has another number than a positive whole one; if `half_waves` or `gravity` is
+        out of its range, or `frame` is another word; if `steady_shapes` or
         `SteadyShape.stability` refuses the system; if there is no such shape at any of the speeds, or no small motion of
         it is known (in a fluid that turns).
 

@@ -45,7 +45,8 @@ def explain(
     Raises
     ------
     TypeError, ValueError
-        If `modes` would raise one for these arguments. For a rig it is not checked that mode `first` exists.
+        If `modes` would raise one for these arguments. For a rig it is not checked that mode `first` exists, or that the
+        rig is not too long for `modes`.
 
     Notes
     -----

@@ -218,6 +218,8 @@ def find_modes(
             window = _window("angular_speed", angular_speed)
     if rtol is not None:
         rtol = real(_CALLER, "rtol", rtol)
+        if not rtol >= 0:
+            raise ValueError(f"{_CALLER}: rtol must not be negative or NaN, got {rtol:g}")
     if certify is not False:
         certify = boolean(_CALLER, "certify", certify)
     find = _FIND.get(getattr(system, "_kind", ""))

@@ -143,7 +143,7 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
     birth: Field[str] = Field(
         "Start of the branch. ``'vertical'``: it leaves the straight chain or cord at a critical speed. ``'rest'``: "
         "it starts at rest, with the support off the axis. ``'fold'``: it is isolated, with two shapes from the speed of "
-        "a fold upwards, or closed. Not for held systems.",
+        "a fold upwards, or closed; on a spring it may have no fold. Not for held systems.",
         fact=True,
     )
     end: Field[str] = Field(
@@ -617,7 +617,7 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
     """The branches found down to one conical height; returned by `branches`.
 
     The branches of the modes come first, slowest first; with the support off the axis it is the branch from rest. The
-    isolated branches, which start at folds, follow. With ``hanging_only=False`` those of the other postures come after
+    isolated branches follow. With ``hanging_only=False`` those of the other postures come after
     them, posture by posture. Those of a held system are ordered by half waves.
 
     The printed table has a row for each branch; data frames, dictionaries and CSV files have one for each point, with its

@@ -125,7 +125,7 @@ Branch followed(const System& system, const Options& options) {
     const double conical_height = lowest_height("branch", options);
     BranchRoot root = BranchRoot::of("branch", system, options);
     if (!root.onset) return from_rest(std::move(root), conical_height, options);
-    if (!root.onset->rises() && !(conical_height < root.height))
+    if (!(conical_height < root.height))
         detail::throw_invalid(
             "branch",
             "mode " + std::to_string(options.mode) + " leaves the vertical at the conical height " +

@@ -10,9 +10,9 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 ///
 /// A step goes along the tangent and is corrected across it. It is accepted if Newton's method
 /// contracts at once, the direction turns by less than 26 degrees and the state half way, predicted
-/// from both ends, is on the branch (after a jump to a neighbour it is not). The half waves must be
-/// the same (if h >= 0 and l <= a for all links). Otherwise half the step is tried. This is a
-/// check, not a proof. Cost: 4 to 7 Newton steps of O(N) for an accepted step.
+/// from both ends, is on the branch (after a jump to a neighbour it is not). For a chain with
+/// h >= 0 and l <= a for all links, the half waves must be the same. Otherwise half the step is
+/// tried. This is a check, not a proof. Cost: 4 to 7 Newton steps of O(N) for an accepted step.
 class BranchWalk {
    public:
     BranchWalk(Corrector& corrector, BranchPoint start, double step = 0.05, double longest = 0.5)

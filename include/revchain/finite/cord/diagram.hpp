@@ -62,6 +62,9 @@ class CordDiagram {
         for (std::size_t i = 0; i < met.size(); ++i) {
             if (met[i] == 0) {
                 result_.branches.push_back(through(list.shapes[i]));
+                const BranchEnd end = result_.branches.back().end;
+                if (end != BranchEnd::height && end != BranchEnd::closed)
+                    result_.consistent = false;
                 count_met(list, result_.branches.back(), height, met);
             }
             if (met[i] != 1) result_.consistent = false;
