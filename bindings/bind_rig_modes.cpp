@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "interrupt.hpp"
 #include "revchain/damped_modes.hpp"
 #include "revchain/rig_modes.hpp"
 
@@ -182,9 +183,11 @@ void bind_rig_modes(py::module_& module) {
     module.def(
         "damped_modes",
         [](const Rig& rig, Index first, std::optional<Index> count, double gravity, MaybeProgress progress) {
-            const revchain::DampedModesOptions options{
-                .first = first, .count = count, .gravity = gravity, .progress = progress.value_or(nullptr)};
-            const auto found = without_lock([&] { return revchain::damped_modes(rig, options); });
+            const revchain::Progress* shared = progress.value_or(nullptr);
+            const revchain::DampedModesOptions options{.first = first, .count = count, .gravity = gravity};
+            const auto found = aside(rig.chain(), shared, [rig, options](const revchain::Chain<double>&) {
+                return revchain::damped_modes(rig, options);
+            });
             return py::make_tuple(complex_numbers(found.exponent, {found.size()}), to_numpy(found.error_bound),
                                   to_numpy(found.error_estimate),
                                   complex_numbers(found.shapes, {found.size(), rig.size() + 1}), found.available,

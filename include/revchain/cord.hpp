@@ -255,7 +255,7 @@ struct CordSwing {
 /// modes, extrapolated from the decrease between modes k/2 ... k and k + 1 ... 2 k. After a kink in
 /// a cord without a tip, convergence at the free end is slow, as k^-1/2: waves meet there.
 /// Accuracy, measured against long chains (tests/cpp/cord_branches.cpp): coefficients to 1e-13 of
-/// the largest, angles to rounding, 1e-16 times the number of swings. Cost: offsets of 2 k modes at
+/// the largest, angles to rounding, 1e-15 times the number of swings. Cost: offsets of 2 k modes at
 /// several hundred arc lengths.
 /// Throws InvalidArgument for a bob, unless starts are finite, continuous, of the length of
 /// `arc_length` and 0 at the support, for arc lengths out of order, a count below 1 or above 1e4,

@@ -33,6 +33,7 @@ CALLS = {
     "modes": "rc.modes(rc.Chain.uniform_rods(20_000), 'all')",
     "modes in threads": "rc.modes(rc.Chain.uniform_rods(20_000), 'all', threads=2)",
     "dense": "rc.modes(large, method='dense')",
+    "modes with dashpots": "rc.modes(rc.Rig(rc.Chain.uniform_rods(1000), pins=rc.Pin(damping=1e-4)), 3)",
     "recurrence": "rc.modes(rc.Chain.uniform_rods(60_000), 29_999)",
     "conical_heights": "rc.conical_heights(weight=np.ones((400_000, 60)), length=1.0)",
     "conical_heights in threads": "rc.conical_heights(weight=np.ones((400_000, 60)), length=1.0, threads=2)",

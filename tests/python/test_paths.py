@@ -269,7 +269,7 @@ def test_wrong_uncertainties_by_path():
         ({"links[load].mass": "x %"}, r'links\[load\].mass must be a number, or a part of it such as "5 %"'),
         ({"links[load].mass": [1, 2]}, "must be a single number"),
         ({"links[load].mass": 1, "links[1].mass": 1}, r'"links.load..mass" and "links.1..mass" are the same number; leave one of them out'),
-        ({"flywheels[load].mass": 1}, "the speeds have no derivative by it; change the datum and call modes again"),
+        ({"flywheels[load].mass": 1}, "no derivative of the speeds by it is computed; change the datum and call modes again"),
         ({"gravity": 0.1}, 'data must be one of "length"'),
         ({3: 0.1}, "data must be one of .*, got 3"),
     ]:

@@ -95,8 +95,8 @@ def modes(
     Raises
     ------
     ValueError
-        If the requested modes do not exist or are specified in two ways, a window is not a pair (low, high) with low
-        below high, `rtol` is NaN or negative, `threads` is negative, `method` or `precision` is unknown, or the method
+        If the requested modes do not exist (of a rig: the first) or are specified in two ways, a window is not a pair
+        (low, high) with low below high, `rtol` is NaN or negative, `threads` is negative, `method` or `precision` is unknown, or the method
         does not apply to the chain; if a method or another precision than double is asked of a system other than a
         chain, or `certify` of a cord; if a rig with dashpots or linear drag comes with a window or `certify`, or has
         more than 1000 links; if a rig has more than 20,000 links and its speeds may be complex (inverted links or

@@ -403,11 +403,12 @@ def on_branch(
     try:
         return question(core, number, name, force, gravity, direction, lowest)
     except ValueError as error:
+        reason = str(error).partition(": ")[2]  # after the name of a function that this one calls
         if name == "lowest_inclination":  # which C++ calls that of the tip
-            raise ValueError(str(error).replace("tip inclination", name)) from None
-        if name != "top_tension" or "tension" not in str(error):
-            raise
-        what = str(error).partition(": ")[2].rpartition(", got ")[0]  # the number there is the tension / gravity
+            reason = reason.replace("tip inclination", name)
+        if name != "top_tension" or "tension" not in reason:
+            raise ValueError(f"{caller}: {reason}") from None
+        what = reason.rpartition(", got ")[0]  # the number there is the tension / gravity
         what += "; use branches for the tensions that it has" if held else ""
         raise ValueError(f"{caller}: {what}, got {value:g}") from None
 

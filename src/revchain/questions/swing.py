@@ -50,9 +50,10 @@ def swing(
 
     The support may be moved: a crane that brakes, a ship that rolls. Dashpots and linear drag damp the motion.
 
-    The motion is in one plane; without damping its natural angular frequencies are the whirl speeds of `modes`. Motions
-    in the two horizontal directions are independent: call the function for each. Flywheels with momentum turn the plane
-    of the swing; offsets and velocities of such a `Rig` are complex, x + i y.
+    The motion is in one plane; without damping its natural angular frequencies are the whirl speeds of `modes`, of links
+    that do not turn about their own axes. Motions in the two horizontal directions are independent: call the function
+    for each. Flywheels with momentum turn the plane of the swing; offsets and velocities of such a `Rig` are complex,
+    x + i y.
 
     Parameters
     ----------
@@ -63,8 +64,9 @@ def swing(
         moving support.
     offset : array_like, shape (N + 1,) or (N,), optional
         Offsets of the pins at time 0, m, free end first; on the axis if left out. The last one, of the support, may be
-        left out; it must be 0 unless a `Rig` has a support that yields. For a cord: a continuous function of the
-        distance from the free end, or numbers at `arc_length` with straight lines between them.
+        left out. It must be 0, or that of `support`, unless a `Rig` has a support that yields. A trolley of prescribed
+        motion does not yield. For a cord: a continuous function of the distance from the free end, or numbers at
+        `arc_length` with straight lines between them.
     velocity : array_like, shape (N + 1,) or (N,), optional
         Velocities of the pins at time 0, m/s, in the same form; at rest if left out.
     support : SupportMotion, optional
@@ -91,12 +93,13 @@ def swing(
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`, or `support` is not a `SupportMotion`.
     ValueError
         If `system` is a `Held`, or a `Cord` with a bob or whose support is moved; if a number is not finite, a start
-        has another length or moves a firm support, `count` exceeds the number of modes, or weights differ by a factor
-        of 2e123 or more; if a function jumps, or `arc_length` comes with a chain or a rig. For a rig: if its straight
-        position is unstable (the message gives the growth rate), if its support is carried round (use `response`), if
-        the fluid turns, if it has momentum and pins without inertia, or if a start is complex without momentum. With
-        damping, springs at pins, a trolley or a moving support: if a time is negative, `count` is given, a force acts
-        on a firm support, the motion exceeds the largest double, or there are more than 1000 links.
+        has another length, moves a firm support or is complex without momentum, `count` is below 0 (for a cord 1) or
+        above the number of modes (for a cord 1e4), or weights differ by a factor of 2e123 or more; if a function jumps,
+        or `arc_length` comes with a chain or a rig. For a rig: if its support is carried round (use `response`), or if
+        the fluid turns. For a rig without damping, springs at pins, a trolley and a moving support: if its straight
+        position is unstable (the message gives the growth rate) or neutral, or if it has momentum and pins without
+        inertia. With damping, springs at pins, a trolley or a moving support: if a time is negative, `count` is given,
+        a force acts on a firm support, the motion exceeds the largest double, or there are more than 1000 links.
 
     Notes
     -----
@@ -108,8 +111,8 @@ def swing(
     spin). Still fluid acts by its buoyancy and its added mass.
 
     Method: heights, shapes and angles in double-double, so that beats of many years keep their phase; for a cord, angles
-    in double, wrong by 1e-16 times the number of swings, which ``truncation_error`` does not include. Accuracy: else
-    1e-15 of the amplitudes. Cost: 0.6 microseconds for each link and mode, and 3 ns for each
+    in double, wrong by 1e-15 times the number of swings, which ``truncation_error`` does not include. Accuracy
+    otherwise: 1e-15 of the amplitudes. Cost: 0.6 microseconds for each link and mode, and 3 ns for each
     link, mode and time.
 
     With damping, springs at pins, a trolley or a moving support: each motion of `modes` is driven by its part of the

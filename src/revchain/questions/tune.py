@@ -80,7 +80,9 @@ def tune(
     between : (low, high), optional
         Range of the search, if one is needed. If left out: from a thousandth to a thousand times the present value (that of
         the whole chain for a massless link); for a centroid or a radius of gyration from 0 to the length of the link or
-        the present value. For a tension this is said of its excess over the weight; a span is searched from 0 to the length.
+        the present value. If another datum is 0, a value of ordinary size takes its place. For a tension this is said of
+        its excess over the weight, for the length at a span of its excess over the span; a span is searched from 0 to
+        the length.
 
     Returns
     -------
@@ -93,8 +95,9 @@ def tune(
     ValueError
         If not exactly one of speed and height is given; if a number is out of its range, the path is unknown, a link
         would be inverted everywhere in the range, or there is no such mode; if a system held at a span comes without
-        `top_tension`, or another system with it; if `between` is given for a datum that has only one value; if gravity is varied
-        for a height or at a span.
+        `top_tension`, or another system with it; if `between` is given for a length or gravity that has one value (see
+        Notes), or for the support's stiffness, a momentum or a spin of a rig; if gravity is varied for a height or at a
+        span.
     TypeError
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
 
@@ -108,6 +111,8 @@ def tune(
     mass, if no centre of gravity is above its pin). The range leaves out masses with which a link would be inverted.
 
     The speeds of a chain, a cord and a held system given by weight rise with the root of gravity, which gives one value.
+    The heights of a chain, a cord and a held system with firm ends under a tension are proportional to the length, which
+    has one value, too.
 
     A rig without springs at pins and damping has at most one stiffness of its support, one momentum and one spin of a
     link for each speed, computed in double-double to 1e-15; the modes of the new rig give the number of the mode.
@@ -115,9 +120,9 @@ def tune(
     All other data of rigs, cords and held systems are searched: the speed is computed at 65 values and at extrema
     between them, and each pair of neighbours that encloses the wanted speed is bisected. The error bound is that of two
     values whose speeds, with their own bounds, enclose the wanted one. The search may miss values, so `complete` is
-    False. A held system has at most one tension or mass for each speed; `complete` is then True if it is found. At a
-    span with `top_tension` the speed is that of `steady_shape`, the fastest on the branch, and its error is an
-    estimate.
+    False. Under a tension a held system has at most one tension or mass for each speed; `complete` is then True if it
+    is found. At a span with `top_tension` the speed is that of `steady_shape`, the fastest on the branch, and its error
+    is an estimate.
 
     Examples
     --------

@@ -371,7 +371,7 @@ def _by_path(
         known[datum.path] = datum.said
         name, _ = _rate(datum)
         if datum.rate is None and not system._is_cord:
-            why = "the speeds have no derivative by it; change the datum and call modes again"
+            why = "no derivative of the speeds by it is computed; change the datum and call modes again"
             raise ValueError(f"{caller}: {datum.said}: {why}, got {shown(value)}")
         if twice := {name, datum.said} & given.keys():
             raise ValueError(f'{caller}: give either {min(twice)} or "{datum.said}", got both')

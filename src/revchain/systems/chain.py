@@ -60,9 +60,10 @@ class Chain(System):
     ValueError
         If a number is not real and finite, or has a unit of another kind; if arrays have more than one dimension or
         different lengths, or there are no links; if a length is not positive, a mass is negative, the lowest link has
-        no mass, or the sum of the masses overflows; if a radius of gyration is imaginary, or a link would be inverted;
-        if `centroid` is given without exactly one of `pendulum_length` and `radius_of_gyration`; if not exactly one of
-        `mass` and `weight` is given; if `order` is another word; if `names` does not have a text for each link.
+        no mass, the sum of masses or lengths overflows, or lengths and radii of gyration are too far apart; if a radius
+        of gyration is negative or imaginary, or a link would be inverted; if `centroid` is given without exactly one of
+        `pendulum_length` and `radius_of_gyration`, or one of these without `centroid`; if not exactly one of `mass` and
+        `weight` is given; if `order` is another word; if `names` does not have a text for each link.
 
     Notes
     -----
@@ -261,8 +262,8 @@ class Chain(System):
         Raises
         ------
         ValueError
-            If `count` is below 1, the length, weight or mass is not positive and finite, both mass and weight are given,
-            the exponent is out of range, or it leaves the lowest link a weight below 1e-292.
+            If `count` is below 1 or too many for the memory, the length, weight or mass is not positive and finite, both
+            mass and weight are given, the exponent is out of range, or it leaves the lowest link a weight below 1e-292.
 
         Notes
         -----
@@ -295,7 +296,7 @@ class Chain(System):
 
     @property
     def mode_count(self) -> int:
-        """Number of modes: `size`, minus one for each pin without inertia, as between massless threads."""
+        """Number of modes: `size`, minus one for each independent motion without inertia, as of pins between threads."""
         return self._compiled.mode_count
 
     @property
@@ -343,7 +344,7 @@ class Chain(System):
     @property
     def pendulum_length(self) -> Floats:
         """Length of the equivalent simple pendulum of each link, m, shape (N,); infinite if the centre of gravity is
-        at the upper pin; read-only."""
+        at the upper pin, 0 if all the mass is there; read-only."""
         return self._column(self._compiled.pendulum_length)
 
     @property
@@ -370,7 +371,8 @@ class Chain(System):
         -------
         Chain
             A chain in which the link above the pin includes the body. Its mass and centroid are rounded once, and its
-            radius of gyration is kept in double-double. Conical heights are within 3 ulp of the exact body's.
+            radius of gyration is kept in double-double. Conical heights are within 3 ulp of the exact body's if no
+            centre of gravity lies above its pin.
 
         Raises
         ------

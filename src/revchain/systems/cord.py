@@ -44,8 +44,8 @@ class Cord(System):
         Mass (kg) or weight (N) of the whole cord without its tip. If both are left out, it is the integral of a
         `density` given as a function, else 1 in the unit of the tip.
     density : float or callable
-        Distribution of the mass over the distance s from the free end. A number p above -1 means ``s**p`` (0: uniform,
-        1: thicker towards the support). A function of s must be positive inside the cord; it may have jumps and
+        Distribution of the mass over the distance s from the free end. A number p above -1, at most 1e4, means ``s**p``
+        (0: uniform, 1: thicker towards the support). A function of s must be positive inside the cord; it may have jumps and
         corners, and at the free end it may vanish or grow as a power. A clasp or another narrow part is found if it is
         at least a thousandth of the length wide; narrower ones may lie between the places where the function is called:
         give their ends as `breaks`. If `mass` or `weight` is given, the function is scaled to it; else it is the mass

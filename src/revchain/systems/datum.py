@@ -44,7 +44,7 @@ class Datum:
         search ends at that value.
     rate : (str, ndarray) or None
         Name of the field of the sensitivity, and a factor for each link: the derivative by this datum is the sum of field
-        times factor. None if no field has it.
+        times factor. None if no field has it, and for a cord, whose field has the name of the path.
     link : int
         Index of the link, from 0 for the lowest; 0 if the number belongs to no link.
     one_way : bool
@@ -151,7 +151,7 @@ def _contains(one: str, other: str) -> bool:
         return where.startswith("links") and (name == one or (one == "length" and name in _LENGTHS))
     if one.endswith(".length_in_proportion"):
         return where == one.rpartition(".")[0] and name in _LENGTHS
-    return one.endswith("].momentum") and where.startswith("flywheels") and name != "momentum"
+    return one.endswith("].momentum") and where.startswith("flywheels") and name not in ("momentum", "axial_moment")
 
 
 def _kind(system: Any) -> str:
