@@ -254,7 +254,7 @@ TEST_CASE("random chains: the proved list holds all that a scan finds", "[finite
     CHECK(many > 5);
 }
 
-TEST_CASE("just below a critical speed, and long chains", "[finite]") {
+TEST_CASE("just below a critical height, and long chains", "[finite]") {
     for (const Index n : {1, 2, 5, 20, 100, 1000})
         for (const bool rods : {false, true}) {
             const double a = static_cast<double>(n);
