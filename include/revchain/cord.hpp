@@ -212,8 +212,9 @@ REVCHAIN_DECLARE_ANALYTIC
 /// as for a chain. Accuracy: exponents to 1e-8 (measured against the modes, 1e-9 below a critical
 /// speed; with a tip to 2e-9 against chains with Richardson's extrapolation:
 /// tests/python/test_cord_branches.py). Exponents of N links differ from them as 1/N^2
-/// (tests/cpp/cord_branches.cpp). Cost: that of a chain with 10 links a panel; each half wave has
-/// two panels or more. Throws InvalidArgument if the lengths differ.
+/// (tests/cpp/cord_branches.cpp), or as 1/N if a point mass is not at a pin. Cost: that of a chain
+/// with 10 links a panel; each half wave has two panels or more. Throws InvalidArgument if the
+/// lengths differ.
 REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Cord& cord, const CordShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);
@@ -253,7 +254,8 @@ struct CordSwing {
 ///
 /// `error_estimate` is twice the largest contribution of modes k + 1 ... 2 k and of all higher
 /// modes, extrapolated from the decrease between modes k/2 ... k and k + 1 ... 2 k. After a kink in
-/// a cord without a tip, convergence at the free end is slow, as k^-1/2: waves meet there.
+/// a uniform cord without a tip, convergence at the free end is slow, as k^-1/2: waves meet there.
+/// With density s^p it is about k^(p-1/2), which grows for p > 1/2.
 /// Accuracy, measured against long chains (tests/cpp/cord_branches.cpp): coefficients to 1e-13 of
 /// the largest, angles to rounding, 1e-15 times the number of swings. Cost: offsets of 2 k modes at
 /// several hundred arc lengths.

@@ -117,6 +117,10 @@ TEST_CASE("a loop between the heights looked at: the proof finds it, lists do no
         CHECK(count(ends[0] * (1 + 1e-9)) == count(ends[0] * (1 - 1e-9)) + 2);
         CHECK(count(ends[1] * (1 - 1e-9)) == count(ends[1] * (1 + 1e-9)) + 2);
         for (const double share : {0.01, 0.3, 0.6, 0.99}) check_at(chain, found, ends[0] + share * (ends[1] - ends[0]));
+        // next to the point where it begins and ends
+        CHECK(std::is_sorted(loop->arc.begin(), loop->arc.end()));
+        CHECK(loop->conical_height.front() == loop->conical_height.back());
+        for (const double off : {0.0, 1e-6, -1e-6}) check_at(chain, found, loop->conical_height.front() * (1 + off));
     }
 }
 

@@ -114,7 +114,10 @@ auto follow(Branch& branch, BranchWalk& walk, double log_end, std::size_t max_po
         }
         if (here.state.log_height < log_end) return End::stuck;  // passed the end unseen
         if (closed) {
-            append(branch, start);
+            const BranchState rest = moved(start.state, -1, before.state);
+            BranchPoint again = start;
+            again.arc = before.arc + std::sqrt(inner(rest, rest));
+            append(branch, again);
             return End::closed;
         }
         append(branch, here);
@@ -149,12 +152,15 @@ std::vector<SteadyShape> states_at(const Branch& branch, Corrector& corrector,
     if (from_vertical && !within && branch.size() < 2) return found;
     const double there = within ? std::min(1e-9, 0.01 * side * off(0)) : 1e-9;
     const std::size_t last = branch.size() - 1;
+    const bool closed = branch.end == decltype(branch.end)::closed && last > 1;
     for (std::size_t i = from_vertical ? 1 : 0; i <= last; ++i) {
         const double a = off(i);
         if (i == 1 && within && side * a <= -there)
             if (const auto point = near_vertical(system, *trace.onset, height)) take(point->state);
         if (std::abs(a) < there) {  // the point itself: an end, or a crossing
-            if (i == 0 || i == last || (off(i - 1) > 0) != (off(i + 1) > 0))
+            if (closed && i == last) continue;  // the first point again
+            const bool is_end = !closed && (i == 0 || i == last);
+            if (is_end || (off(i == 0 ? last - 1 : i - 1) > 0) != (off(i + 1) > 0))
                 take(trace.points[i].state);
         } else if (i < last && std::abs(off(i + 1)) >= there && (a > 0) != (off(i + 1) > 0)) {
             const auto walk = BranchWalk::between(corrector, trace.points[i], trace.points[i + 1]);
