@@ -163,10 +163,11 @@ struct HeldModesOptions {
 
 /// Whirl modes of small amplitude of the straight chain under a tension, slowest first, chosen as
 /// for a hanging chain. At these heights shapes of finite amplitude under the same tension branch
-/// off. N links have N - 1 modes, one more for each end on a spring, less one for each pin that
-/// moves without mass. In `shapes` firm ends are 0, the largest offset is 1, and the lowest
-/// pin that moves has a positive offset; nodes are distances from the lower end. Without gravity a
-/// height is `HeldModesOptions::gravity` over the square of the speed. Held cords: cord.hpp.
+/// off. N links have N - 1 modes, one more for each end on a spring, less one for each independent
+/// motion of the pins that moves no mass. In `shapes` firm ends are 0, the largest offset is 1, and
+/// the lowest pin that moves has a positive offset; nodes are distances from the lower end. Without
+/// gravity a height is `HeldModesOptions::gravity` over the square of the speed. Held cords:
+/// cord.hpp.
 ///
 /// Method: the elements are those of a hanging chain, on top of the lowest link or spring. Modes
 /// are counted in double; each gets a Rayleigh quotient in double-double and two proved counts.

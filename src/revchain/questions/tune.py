@@ -73,8 +73,8 @@ def tune(
     conical_height : float, optional
         Required conical height, m, instead of `angular_speed`.
     top_tension : float, optional
-        For a system held at a span, which is bent at every speed: required tension at the upper end at that speed (see
-        `steady_shape`), in N or the unit of the weights.
+        For a system held at a span: required tension at the upper end at that speed (see `steady_shape`), in N or the unit
+        of the weights.
     gravity : float, optional
         Acceleration of gravity, m/s^2; standard gravity if left out.
     between : (low, high), optional

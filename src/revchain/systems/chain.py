@@ -593,13 +593,15 @@ class Chain(System):
             raise TypeError(f"there is no {unknown[0]}")
         heavy = data["mass" if by_mass else "weight"]
         numbers = [heavy, *(data[name] for name in ("length", "centroid", "gyration_ratio", "gyration_ratio_low"))]
-        taper = (data["taper"],) if "taper" in data else ()
-        order: Any = word("revchain.Chain.from_dict", "order", data.get("order", _FREE_END), _ORDERS)
+        taper = (real("revchain.Chain.from_dict", "taper", data["taper"]),) if "taper" in data else ()
+        caller = "revchain.Chain.from_dict"
+        order: Any = word(caller, "order", data.get("order", _FREE_END), _ORDERS)
         way = slice(None, None, 1 if order == _FREE_END else -1)
         arrays = [np.asarray(number, np.float64) for number in numbers]
         arrays = [np.ascontiguousarray(array[way]) if array.ndim else array for array in arrays]
-        names = data.get("names")
-        return cls._from_state(((data["links"], *arrays, 2, *taper), by_mass, names and tuple(names)[way], order))
+        size, names = integer(caller, "links", data["links"]), data.get("names")
+        names = None if names is None else _checked_names(caller, names, size, order)
+        return cls._from_state(((size, *arrays, 2, *taper), by_mass, names, order))
 
 
 def are_rods(length: ArrayLike, centroid: ArrayLike, radius_of_gyration: ArrayLike) -> Any:

@@ -39,15 +39,16 @@ class Held(System):
     ValueError
         If not exactly one of `span` and `tension` is given; if a number is out of its range; if the span, or the
         distance between firm ends, is not less than the length; if a radius comes with a tension; if a support
-        rolls freely or has a dashpot; if a cord is not uniform, carries masses, or comes with `lower` or `upper`.
+        rolls freely or has a dashpot; if masses are mixed with weights; if a cord is not uniform, carries masses, or comes
+        with a `lower` or `upper` that is not a firm point on the axis.
     TypeError
         If `system` is not a `Chain` or a `Cord`, `lower` or `upper` is not a `Support`, or `weightless` is not a bool.
 
     Notes
     -----
-    With a span the chain is bent at every speed: use `steady_shapes`. With a tension greater than its weight (without
-    gravity, with any tension) the chain can also be straight; `modes` returns its critical speeds. Cost: O(1). Source:
-    Greenhill (1908), section 3 for weights on a taut string, section 5 for the cord, section 8 (21) for links.
+    With a span use `steady_shapes`: between firm ends the chain is bent at every speed. With a tension greater than its
+    weight (without gravity, with any tension) the chain can also be straight; `modes` returns its critical speeds. Cost:
+    O(1). Source: Greenhill (1908), section 3 for weights on a taut string, section 5 for the cord, section 8 (21) for links.
 
     Examples
     --------
@@ -150,8 +151,8 @@ class Held(System):
     def mode_count(self) -> int | None:
         """Number of modes of the straight chain; None for a cord.
 
-        It is N - 1 for N links, one less for each movable pin without mass and, under a tension, one more for each end on a
-        spring.
+        It is N - 1 for N links and, under a tension, one more for each end on a spring. It is one less for each independent
+        motion of the movable pins that moves no mass.
         """
         if self._is_cord:
             return None

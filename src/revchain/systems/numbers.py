@@ -32,7 +32,7 @@ STANDARD_GRAVITY = 9.80665
 def floats(caller: str, name: str, value: ArrayLike | None, quantity: str = "") -> Floats:
     """`value` as a float64 array, numbers with units in SI; a ValueError refuses anything but real numbers.
 
-    `quantity` names the kind of unit, if the name does not.
+    A bool among numbers counts as 0 or 1, as in numpy. `quantity` names the kind of unit, if the name does not.
     """
     if type(value) is np.ndarray and value.dtype is _FLOAT64 and value.flags.c_contiguous:
         return value  # as fast as can be: there is nothing to convert
@@ -88,7 +88,7 @@ def count(caller: str, name: str, value: object, each: int = 0) -> int:
 
 def refuse_beyond_memory(caller: str, name: str, number: int, each: int) -> None:
     """Raise a ValueError if so many numbers of `each` bytes exceed the memory of this machine."""
-    if number < 100_000:
+    if number * each < 800_000:
         return
     if number * each > (memory := _memory()):
         needed, there = number * each / 2**30, memory / 2**30

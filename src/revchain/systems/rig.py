@@ -96,7 +96,7 @@ class Support(_Fitting):
     ----------
     stiffness : float
         Horizontal stiffness of the spring, N/m; infinite for a firm support, 0 for a trolley that rolls freely. With a
-        mass or weight and no stiffness the support is such a trolley.
+        positive mass or weight and no stiffness the support is such a trolley.
     damping : float
         Damping of a dashpot between the pin and the ground, N s/m. It needs a mass or a stiffness.
     mass, weight : float, optional
@@ -371,7 +371,8 @@ class Displaced(_Fitting):
     Raises
     ------
     ValueError
-        If a number is not finite or is out of its range, or masses are mixed with weights.
+        If a number is not finite or is out of its range, if not exactly one of `mass` and `weight` is given, or if masses
+        are mixed with weights.
 
     Notes
     -----
@@ -450,9 +451,10 @@ class Rig(System):
     ------
     ValueError
         If a number is out of its range, an array does not have one number for each link, masses are mixed with weights,
-        or fluid that turns has added mass.
+        `fluid` is another word, `inverted` is not of booleans, or fluid that turns has added mass or comes with a trolley
+        that rolls freely.
     TypeError
-        If an argument is of another class.
+        If `chain`, `support`, `flywheels`, `displaced` or `pins` is of another class.
 
     Notes
     -----
@@ -527,6 +529,9 @@ class Rig(System):
                 like(f"{caller}: {name}", chain, fitting._given.get("mass"), fitting._given.get("weight"))
         if support is not None and support.radius < 0:
             raise ValueError(f"{caller}: support radius must not be negative, got {support.radius:g}")
+        if displaced is not None:
+            for name, column in displaced._given.items():
+                _column(caller, f"displaced {name}", column, chain.size)
         if displaced is not None and not (displaced._bears or displaced._given.keys() & {"centroid", "radius_of_gyration"}):
             displaced = None
         if fluid == "turning" and displaced is not None:
@@ -540,7 +545,8 @@ class Rig(System):
         dragged = None if drag is None else floats(caller, "drag", drag)
         if dragged is not None:
             check_columns(caller, {"drag": dragged})
-            dragged = read_only(_column(caller, "drag", dragged, chain.size)) if dragged.any() else None
+            dragged = _column(caller, "drag", dragged, chain.size)
+            dragged = read_only(dragged) if dragged.any() else None
         _set(self, "drag", dragged)
         _set(self, "fluid", fluid)
         _set(self, "_inverted", _flags(caller, inverted, chain.size))
@@ -746,6 +752,8 @@ class Rig(System):
     @classmethod
     def _from_data(cls, data: dict[str, Any]) -> Rig:
         kinds = {"support": Support, "flywheels": Flywheel, "displaced": Displaced, "pins": Pin}
+        if unknown := sorted(data.keys() - kinds.keys() - {"chain", "fluid", "inverted", "drag"}):
+            raise TypeError(f"there is no {unknown[0]}")
         fittings: dict[str, Any] = {name: kind(**data[name]) for name, kind in kinds.items() if name in data}
         chain = Chain.from_dict(data["chain"])
         return cls(chain, **fittings, fluid=data["fluid"], inverted=data.get("inverted", False), drag=data.get("drag"))
