@@ -227,7 +227,7 @@ def test_a_correct_measurement_is_seldom_called_wrong(given):
 
 
 def test_what_cannot_be_told():
-    """With one degree of freedom all residuals are equal; a measurement that decides a datum alone cannot disagree."""
+    """With one degree of freedom all residuals are equal; a measurement of leverage 1 cannot disagree."""
     crane = rc.Chain(mass=[2500, 400], length=[6, 24])
     one = rc.fit(crane, {1: ("10.2 s", "0.02 s"), 2: ("1.60 s", "0.01 s")}, vary="length")
     assert np.ptp(np.abs(one.standardized_residual)) < 1e-6 * abs(one.standardized_residual[0])

@@ -82,8 +82,8 @@ def from_mjcf(
 
     A link hangs down, whatever its pose in the file; it stands (is `inverted`) where a spring at its pin holds it so.
     Bodies fixed to each other are one link. The lower pin of a link is where the next body is hinged. The free end of the
-    lowest link is its only site, a massless body fixed to it, the far end of its geoms, or else its centre of gravity; no
-    speed depends on it.
+    lowest link is the only massless body fixed to it, else its only site, the far end of its geoms, or its centre of
+    gravity; no speed depends on it.
 
     If all joints are parallel hinges, the links move in one plane. Offsets along the hinges then have no effect. A link
     whose centre of gravity lies beside the line of its pins is read as the straight link with the same small motion; a last

@@ -120,7 +120,7 @@ def branch(
     except ValueError as error:
         begin = re.search(r"leaves the vertical at the conical height ([\d.e+-]+):", str(error))
         if begin is None or max_angular_speed is None:
-            raise
+            raise ValueError(f"{caller}: {str(error).partition(': ')[2]}") from None
         speed = (g / float(begin[1])) ** 0.5
         what = f"mode {number} leaves the vertical at {speed:.6g} rad/s ({speed * 30 / np.pi:.6g} rpm)"
         raise ValueError(f"{caller}: {what}; max_angular_speed must be greater, got {shown(max_angular_speed)}") from None

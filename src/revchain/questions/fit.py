@@ -33,7 +33,7 @@ _SINGULAR = 1e-8  # of the largest singular value: a smaller one belongs to a co
 _EFFECT = 1e-9  # smallest relative effect on a speed of a relative change of 1 of a datum
 _EXTREME = 1e100  # an uncertainty over its value, or less than 1 / it, whose square would overflow
 _PART = 1e-6  # smallest part of a datum in a combination
-_FIXED = 1e-9  # 1 less the leverage of a measurement that decides a datum alone
+_FIXED = 1e-9  # 1 less the leverage of a measurement that alone decides a combination of the data
 _ROUNDED = 1e-10  # relative residuals that are errors of rounding
 _CHANCE = 0.01  # how often a fit with a correct model says that a measurement disagrees
 

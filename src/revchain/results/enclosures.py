@@ -89,7 +89,7 @@ class Family:
 
     @cached_property
     def effect(self) -> Floats:
-        """1 or -1 for a factor that raises or lowers every height, 0 for one that changes none, NaN for any other.
+        """1 or -1 for a factor that lowers no height or raises none, 0 for one that changes none, NaN where it is unknown.
 
         In the drifts of the links: a factor of length, centroid and radius of gyration of a link lowers K and leaves M
         unchanged; a radius of gyration or the mass of the support raises M; the stiffness of the support raises K. A factor
@@ -198,7 +198,8 @@ def _below(weight: Floats) -> Floats:
 def solved(inertia: Floats, pull: Floats) -> tuple[Floats, Floats]:
     """Eigenvalues of M x = L K x, largest first, and vectors as columns; NaN if K is not positive definite.
 
-    A zero at the end of K, that of a trolley that rolls freely, gives an infinite eigenvalue.
+    A zero at the end of K, that of a trolley that rolls freely, gives an infinite eigenvalue. The rest of K must then be
+    positive definite, which is not checked.
     """
     shift = 0.0
     if pull[-1, -1] == 0:

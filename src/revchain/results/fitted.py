@@ -61,7 +61,7 @@ class Fitted(Result, row="datum", title="Fitted: {summary}", notes=("{_lines}",)
     )
     covariance: Field[Floats] = Field(
         "Covariance of the values, shape (p, p), to first order. NaN for data in `undetermined`; NaN for all data if no "
-        "uncertainties were given and there are no more measurements than data to estimate them.",
+        "uncertainties were given and `degrees_of_freedom` is 0.",
         axes=("other_datum",),
     )
     correlation: Field[Floats] = Field(
@@ -73,7 +73,7 @@ class Fitted(Result, row="datum", title="Fitted: {summary}", notes=("{_lines}",)
     measured: Field[Floats] = Field("Measured speeds, rad/s, shape (m,); negative for backward modes.", fact=True)
     measured_uncertainty: Field[Floats] = Field(
         "Standard uncertainties of the measured speeds, rad/s, shape (m,): as given, else one relative uncertainty for all "
-        "speeds, estimated from the residuals; NaN if there are no more measurements than data.",
+        "speeds, estimated from the residuals; NaN if these are needed and `degrees_of_freedom` is 0.",
         fact=True,
     )
     computed: Field[Floats] = Field("Speeds of the modes of the new system, rad/s, shape (m,).", fact=True)
@@ -88,7 +88,7 @@ class Fitted(Result, row="datum", title="Fitted: {summary}", notes=("{_lines}",)
     )
     leverage: Field[Floats] = Field(
         "Leverage of each measurement, shape (m,), from 0 to 1: the diagonal of the hat matrix. Their sum is the number of "
-        "data determined. With leverage 1 a measurement decides a datum alone, and cannot disagree.",
+        "data determined. With leverage 1 a measurement alone decides a combination of the data, and cannot disagree.",
         fact=True,
     )
     standardized_residual: Field[Floats] = Field(
