@@ -66,8 +66,9 @@ struct CordModes {
     /// the line of a bob crosses it, are not listed.
     [[nodiscard]] Vector<double> nodes(Index j) const;
     /// Arc lengths at which the mode is vertical, ascending, one above each node: the part below
-    /// has its centre of gravity on the axis. Where the cord turns back at a particle, that is the
-    /// place. Between held ends, one is below each node and one below the upper end.
+    /// has its centre of gravity on the axis. With a bob another can lie below the lowest node.
+    /// Where the cord turns back at a particle, that is the place. Between held ends, one is below
+    /// each node and one below the upper end.
     [[nodiscard]] Vector<double> vertical_points(Index j) const;
     /// n = sqrt(g / lambda), rad/s.
     Vector<double> angular_speed(double gravity = conical_pendulum::standard_gravity) const;

@@ -42,8 +42,8 @@ struct DragShapeOptions {
 
 enum class DragStatus {
     success,
-    fold,     ///< the way there turns back at the factor reached, and does not lead to the end
-    stalled,  ///< the continuation did not converge
+    fold,     ///< the way there turns back at the factor reached, and is not found to lead on
+    stalled,  ///< the continuation did not converge, and met no fold
 };
 
 inline std::string_view to_string(DragStatus status) {
@@ -69,7 +69,7 @@ struct DragShape {
     double residual = 0;        ///< largest unbalanced moment over (weight times length)
     double error_estimate = 0;  ///< of the direction of each link, rad
     DragStatus status = DragStatus::stalled;
-    int folds = 0;  ///< where the way turned back and forth; a shape that follows it would jump
+    int folds = 0;  ///< where the way turned, back or forth; a shape that follows it would jump
     int steps = 0;  ///< of the continuation
 };
 

@@ -199,12 +199,14 @@ struct HeldDiagramOptions {
 
 /// The branches of a chain or cord held at a span, one for each number of half waves from 1 to the
 /// last with a shape at the greatest speed (for a cord at most 1000). A branch begins at that
-/// speed, at a shape with its number of half waves, and goes to slower speeds, through folds.
+/// speed, on the axis at a shape with its number of half waves, and goes to slower speeds, through
+/// folds.
 /// It ends where a link becomes slack or turns over (`slack`), the cord hangs folded along the axis
 /// (`folded`), the greatest speed is reached again (`speed`), the conical height is 10,000 lengths
 /// (`rest`: off the axis), or 3000 steps are done (`budget`). `HeldBranch::mode` numbers the
-/// branches. If an end is off the axis each number k has two branches: mode 2 k - 1, whose lowest
-/// link first leads outwards, and mode 2 k, whose lowest link first leads inwards. A branch that
+/// branches. If an end is off the axis each number k has two branches. They are found from the
+/// nearly straight shape of k half waves with both ends on the axis and without gravity, mode
+/// 2 k - 1 with its lowest link outwards, mode 2 k inwards. A branch that
 /// returns to the greatest speed where another would begin stands for both.
 ///
 /// Method: arc continuation in (force across, force along, height) at constant span; shapes are

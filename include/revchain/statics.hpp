@@ -49,8 +49,9 @@ struct ForceDiagram {
 
 /// The straight chain with the weights of the shape moved to the axis at their levels. Each link is
 /// as long as its link in the shape is high. Its mode at the shape's conical height has the offsets
-/// of the shape, at any inclination and for links of any kind. Its stiffness is that of the shape
-/// perpendicular to the turning plane. Throws InvalidArgument as `force_diagram`.
+/// of the shape, at any inclination below a right angle and for links of any kind. Its stiffness is
+/// that of the shape perpendicular to the turning plane. Throws InvalidArgument as `force_diagram`,
+/// and for an inverted link.
 [[nodiscard]] Chain<double> transferred_to_axis(const Chain<double>& chain,
                                                 const SteadyShape& shape);
 

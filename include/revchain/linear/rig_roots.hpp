@@ -107,14 +107,15 @@ class RigRoots {
         }
         if (rig_.pencil.has_joints())
             throw_invalid(place,
-                          "with springs at pins every speed must be real: standing links with "
-                          "momentum, driven wheels and floats in a fluid that turns with them are "
-                          "solved without such springs; links",
+                          "with springs at pins every speed must be real: standing or floating "
+                          "links with momentum, driven wheels and floats in a fluid that turns "
+                          "with them are solved without such springs; links",
                           rig.size());
         if (rig_.pencil.size() > most_isolated)
             throw_invalid(place,
-                          "a rig whose speeds may be complex (standing links with momentum, driven "
-                          "wheels, floats in a fluid that turns with them) is solved for at most " +
+                          "a rig whose speeds may be complex (standing or floating links with "
+                          "momentum, driven wheels, floats in a fluid that turns with them) is "
+                          "solved for at most " +
                               std::to_string(most_isolated) + " links and supports that yield",
                           rig_.pencil.size());
         // A massless coordinate has one root x = 0, and two if no momentum acts on it.

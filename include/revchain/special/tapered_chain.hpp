@@ -48,7 +48,7 @@ class Mode {
     double conical_height() const { return detail::height(end_, length_, exponent_); }
 
     /// Offset Gamma(p+1) (z/2)^-p J_p(z) at x, 1 at the free end.
-    /// Accuracy: absolute error 4e-16 (1 + z) of the largest offset, which exceeds 1 for p < -1/2.
+    /// Accuracy: absolute error 4e-16 (1 + z) of the largest offset, not always 1 if p < -1/2.
     double shape(double x) const {
         return offset_(argument(x, "analytic::tapered_chain::Mode::shape"));
     }

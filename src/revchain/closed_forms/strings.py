@@ -62,7 +62,7 @@ class TransverseModes(Result, row="mode", title="TransverseModes: {_many}"):
         "Conical height of a pendulum of that period, m, shape (n,).", heading="height", unit="m"
     )
     error_bound: Field[Floats] = Field(
-        "Bound of the relative error of each conical height, shape (n,).", heading="error bound"
+        "Proved bound of the relative error of each conical height, shape (n,).", heading="error bound"
     )
     shape: Field[Floats] = Field(
         "Offsets of the first support, the weights and the last support, shape (n, n + 2). The largest size is 1; the "

@@ -48,8 +48,8 @@ def branch(
         link keeps its posture (hanging or inverted).
     mode : int
         Number of the mode, from 1 for the slowest. A rig with its support off the axis has only mode 1, the branch from
-        rest; `branches` finds its isolated branches. For a held system it is the number of half waves at the start of
-        the branch.
+        rest; `branches` finds its isolated branches. For a held system with its ends on the axis it is the number of
+        half waves at the start of the branch; off the axis see `Branch.mode`.
     max_angular_speed : float
         Speed at which to stop, rad/s, above that of the mode. The branch of a held system starts at this speed and goes
         to lower speeds.

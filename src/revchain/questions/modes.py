@@ -51,7 +51,8 @@ def modes(
         gravity.
     count : int or "all", optional
         Number of modes, slowest first; 10 if left out, or all if there are fewer. A cord has infinitely many. For a rig
-        with flywheels `count`, `first` and the windows (of absolute speeds) apply to each direction of rotation.
+        with flywheels `count`, `first` and the windows (of absolute speeds) apply to each direction of rotation; with
+        dashpots or linear drag `count` and `first` apply to both together, by the size of the exponents.
     first : int, optional
         Number of the first mode; the slowest mode is 1. Slower modes are not returned.
     conical_height : (low, high), optional
@@ -62,9 +63,9 @@ def modes(
         for a cord.
     rtol : float, optional
         Relative tolerance of the conical heights. The cheapest method whose bound is within it is used: closed form,
-        Bessel zero, coarser chain, ... (`explain` lists them). Below 2 ulp the method is double-double, whose heights are
-        ``conical_height + conical_height_low``. If left out: full accuracy in double, 2 ulp. Rigs, cords
-        and held systems are always solved to full accuracy.
+        Bessel zero, coarser chain, ... (`explain` lists them). Below 2 ulp, but above 0, modes asked for by number are
+        found by double-double, with heights ``conical_height + conical_height_low``; not with `method` or `certify`. If left
+        out: full accuracy in double, 2 ulp. Rigs, cords and held systems are always solved to full accuracy.
     gravity : float, optional
         Acceleration of gravity, m/s^2; standard gravity if left out.
     method : str, optional
@@ -110,10 +111,11 @@ def modes(
     For chains, held chains and rigs whose speeds cannot be complex, proved counts of the exact heights decide which
     modes lie in a window: adjacent windows share no mode and miss none. A height just above `low` may be rounded to it.
 
-    Accuracy: ``error_bound`` is the relative error bound (by default 2 ulp for a chain and 1 ulp for a held chain,
-    proved by counts). Cost: bisection takes O(N) for each halving, about 50 halvings for each mode; shapes take O(N)
-    time and memory for each mode, when they are read. Other Python threads can run meanwhile. For a rig whose speeds
-    may be complex all speeds are found, in about 1 microsecond times the square of the number of links.
+    Accuracy: ``error_bound`` is the relative error bound (by default at most 2 ulp for a chain and 1 ulp for a held
+    chain, proved by counts). Cost: O(N) for each mode; bisection halves intervals about 50 times, with up to 20,000 links
+    only until each holds one mode. Shapes take O(N) time and memory for each mode, when they are read. Other Python
+    threads can run meanwhile. For a rig whose speeds may be complex all speeds are found, in about 1 microsecond times
+    the square of the number of links.
 
     References
     ----------
@@ -281,7 +283,7 @@ def _of_damped_rig(rig: Rig, asked: _Asked, many: int | None) -> Modes:
     given |= {"speed_error_bound": speed_bound_of_exponents(exponent, bound, rig.has_momentum)}
     given |= {"shape": shape, "available": (available, 0), "rigid": rigid, "complete": complete, "status": status}
     given |= {"direction": np.where(speed < 0, -1, 1), "has_momentum": rig.has_momentum, "method": "exponents"}
-    given |= {"_is_damped": True, "_unused": ("nodes",)}  # no point stays on the axis
+    given |= {"_is_damped": True, "_unused": ("nodes",)}  # in general no point stays on the axis
     return Modes._made(None, system=rig, gravity=g, rtol=asked.rtol, **given)
 
 

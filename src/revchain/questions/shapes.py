@@ -84,16 +84,17 @@ def steady_shapes(
     SteadyShapes
         A sequence of shapes.
 
-        Chains and rigs: every hanging shape (all links within a right angle of the downward vertical) or, if
-        `hanging_only` is false, every shape. Straight shapes are left out. Of two mirror images the one with the free
-        end at a positive offset is given (if that is 0, the one with a positive inclination of the lowest inclined
-        link). If the support is carried round there are no mirror images; outwards is positive. The order is by half
-        waves, then by inclination of the lowest link. ``complete`` is true if it is proved that none is missing among
-        those asked for. It is false, with nothing in ``undecided``, if a link between the lowest and the topmost could lean
-        to any side under no load, that is, if the conical height is at most ``W h (l - a) / (W h + a S)`` (``a - l`` if it
-        may stand; S is the weight hung below): shapes may then leave the plane with the axis, and such shapes are not
-        searched for. Inclinations are within the proved ``error_bound``, usually 2.2e-16. A chain has no shapes in any
-        posture if the height exceeds that of its first mode.
+        Chains and rigs: every hanging shape (all links within a right angle of the downward vertical, but for those that a
+        rig has inverted) or, if `hanging_only` is false, every shape. Straight shapes are left out. Of two mirror images
+        the one with the free end at a positive offset is given (if that is 0, the one with a positive inclination of the
+        lowest inclined link). If the support is carried round there are no mirror images; outwards is positive. The order
+        is by half waves, then by inclination of the lowest link. ``complete`` is true if it is proved that none is missing
+        among those asked for. It is false, with nothing in ``undecided``, if a link between the lowest and the topmost
+        could lean to any side under no load (with the support off the axis or on a spring: the topmost, too), that is, if
+        the conical height is at most ``W h (l - a) / (W h + a S)`` (``a - l`` if it may stand; S is the weight hung below):
+        shapes may then leave the plane with the axis, and such shapes are not searched for. Inclinations are within the
+        proved ``error_bound``, usually 2.2e-16. A chain has no shapes in any posture if the height exceeds that of its
+        first mode.
 
         Cords: ordered by half waves. ``complete`` is true if a theorem counts the shapes: there is then one for each
         critical height above the given height. This holds for a uniform cord with or without a tip, and for a density
@@ -106,19 +107,20 @@ def steady_shapes(
         leads outwards is given; ends off the axis have no mirror images. Half waves are counted about the line between the
         ends (with springs: between their rest positions). ``missing`` lists the half waves without a shape. Held chains:
         ``complete`` is true if it is proved that there are no other shapes with these numbers of half waves in the plane of
-        the axis and the ends; else ``undecided`` gives the inclinations of the lowest link at which others may start. The
-        proof usually succeeds for one half wave of up to 9 links with ``l <= a`` and mass at every pin; with more links or
-        half waves it often leaves a part undecided. Only shapes in that plane are searched for. If both ends are off the
-        axis, others are common, and ``complete`` is false. Otherwise they have a link that no pull turns. Held cords:
-        ``complete`` is true for a span without gravity, which has one shape for each number of half waves.
+        the axis and the ends; else ``undecided`` gives the inclinations of the lowest link at which others in that plane
+        may start (none if `prove` is false). The proof usually succeeds for one half wave of up to 9 links with ``l <= a``
+        and mass at every pin; with more links or half waves it often leaves a part undecided. Only shapes in that plane are
+        searched for. If both ends are off the axis, others are common, and ``complete`` is false. Otherwise they have a
+        link that no pull turns. Held cords: ``complete`` is true for a span without gravity, which has one shape for each
+        number of half waves.
 
     Raises
     ------
     ValueError
         If not exactly one of `angular_speed` and `conical_height` is given, a number is out of its range,
         `direction` is neither 1 nor -1, or a link of a rig has no effective tension (tension plus speed times momentum
-        divided by length) at the speed; if a rig has springs at pins, a dashpot at its support, or linear drag; if a
-        property is given without `mode`, or `mode` for a held system.
+        divided by length) at the speed; if a rig has springs at pins, a dashpot at its support, linear drag or, with
+        `mode`, a free trolley; if a property is given without `mode`, or `mode` for a held system.
     TypeError
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`, or `hanging_only` or `prove` is not a bool.
 
@@ -162,7 +164,7 @@ def steady_shapes(
     >>> [round(float(np.degrees(s.inclination[0])), 1) for s in rc.steady_shapes(carousel, angular_speed=3.0)]
     [77.5, -68.1, -20.7]
 
-    A blade with exactly one shape, and one that turns too slowly to have any:
+    A blade with exactly one shape of one half wave, and one that turns too slowly to have any:
 
     >>> blade = rc.Held(rc.Chain.uniform_rods(10, length=1.0), span=0.51)
     >>> found = rc.steady_shapes(blade, angular_speed=15.0)
@@ -301,8 +303,8 @@ def steady_shape(
     direction : {1, -1}, optional
         Direction of rotation; only a rig with flywheels depends on it.
     min_conical_height : float, optional
-        Conical height at which the search ends, m, less than that of the mode; 1e-6 of that of the mode if left out.
-        Not used for a held system.
+        Conical height at which the search ends, m, less than that of the mode; if left out, half of a given height (or
+        that of a given speed), else 1e-6 of that of the mode. Not used for a held system.
 
     Returns
     -------

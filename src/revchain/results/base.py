@@ -322,7 +322,8 @@ class Result(Unchangeable):
         """Write the result to a workbook for a spreadsheet program.
 
         The first sheet describes the system and the result. Each table has a sheet of its own, with units in its headings:
-        the links or point masses, the rows of this result, and each quantity that has several numbers in a row.
+        the links or point masses, the rows of this result, and each quantity that has several numbers in a row. A quantity
+        with 16,384 numbers in a row or more is left out; the first sheet names it.
 
         Parameters
         ----------
@@ -332,7 +333,7 @@ class Result(Unchangeable):
         Raises
         ------
         ValueError
-            If the path has another ending, or a table has more rows or columns than a sheet can have.
+            If the path has another ending, or a table that is not left out has more rows or columns than a sheet can have.
         ImportError
             If openpyxl is not installed; the message says how to install it.
         OSError

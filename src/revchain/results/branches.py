@@ -134,8 +134,9 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
     system: Field[Any] = Field("The chain, rig, cord, or held chain or cord.")
     mode: Field[int | None] = Field(
         "Number of the mode at whose critical speed the branch leaves the vertical; 1 for a branch from rest; None "
-        "for an isolated branch. For a held system its half waves at the greatest speed; with ends off the axis the "
-        "number is ``2 * k - 1`` if the lowest link of the k half waves leads outwards, ``2 * k`` if inwards.",
+        "for an isolated branch. For a held system its half waves at the greatest speed. With an end off the axis the "
+        "branch is found from a nearly straight shape of k half waves with both ends on the axis, without gravity. The "
+        "number is then ``2 * k - 1`` if the lowest link of that shape leads outwards, ``2 * k`` if inwards.",
         lambda b: b._found().mode or None,
         part=True,
         fact=True,
@@ -153,8 +154,8 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         "``'slack'``: a link becomes slack, or with flywheels horizontal, or turns over (of a held system near the last "
         "speed). ``'loose'``: the spring at the support no longer holds the "
         "chain. ``'folded'``: a held cord hangs folded along the axis. ``'speed'``: the greatest speed is reached "
-        "again. ``'rest'``: with ends off the axis the held chain hangs as at rest, at a conical height of 10,000 "
-        "lengths.",
+        "again. ``'rest'``: with ends off the axis the held chain hangs as at rest, at a conical height of more than "
+        "10,000 lengths.",
         fact=True,
     )
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", fact=True)
@@ -188,7 +189,8 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         heading="top tension",
     )
     half_waves: Field[Whole] = Field(
-        "Sign changes of the offsets, that of the support included, plus one, as in `SteadyShape`.",
+        "Sign changes of the offsets, that of the support included, plus one, as in `SteadyShape`; for a held system about "
+        "the line between the ends.",
         lambda b: b._half_waves(),
         part=True,
         heading="half waves",
@@ -254,7 +256,8 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         Raises
         ------
         ValueError
-            If there is no such point, or it is the straight chain, at which the branch of a mode starts.
+            If there is no such point; if it is the straight chain, at which the branch of a mode starts; if its shape does
+            not balance in double-double.
 
         Examples
         --------
@@ -354,15 +357,16 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         -------
         StabilityWindows
             The windows in the order of the arc, a sequence that prints as a table. They cover the branch; near the
-            vertical one more shape is examined, a tenth of the way to the next point. They begin anew at folds,
-            so that the speed rises or falls along each. Edges are located by bisection; `StabilityWindow.change` says what
-            happens there. A window shorter than the distance between two places can be missed.
+            vertical one more shape is examined, a tenth of the way to the next point. Unless undecided, they begin anew at
+            folds, so that the speed rises or falls along each. Edges are located by bisection; `StabilityWindow.change`
+            says what happens there. A window shorter than the distance between two places can be missed.
 
         Raises
         ------
         ValueError
-            If `frame` or `speed` is another word, `tolerance` is not positive or `samples` is below 1; for cords and held
-            systems, whose shapes have their stability: ``branch.shape(k).stability()``.
+            If `frame` or `speed` is another word, `tolerance` is not positive or `samples` is below 1; if
+            `SteadyShape.stability` refuses the rig; for cords and held systems, whose shapes have their stability:
+            ``branch.shape(k).stability()``.
 
         Notes
         -----
@@ -642,8 +646,8 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
         heading="mode",
     )
     inverted: Field[tuple[str, ...] | None] = Field(
-        "Names or numbers of the links that are above their upper pins along each branch, as text; None if the diagram has "
-        "one posture.",
+        "Names or numbers of the links that are above their upper pins along each branch, as text; None if `hanging_only`, "
+        "for cords and for held systems.",
         lambda b: None if b.hanging_only or b.system._is_cord or b.system._is_held else tuple(_inverted(each.system) for each in b),
         heading="above their pins",
     )
@@ -680,7 +684,8 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
     )
     consistent: Field[bool] = Field(
         "Whether at each of the speeds `looked_at` the list is proved (of a cord: scanned) and each of its shapes "
-        "lies on exactly one branch. Held systems have neither this nor `complete`, `remark` and `looked_at`.",
+        "lies on exactly one branch, and no branch stops early. Held systems have neither this nor `complete`, `remark` and "
+        "`looked_at`.",
         fact=True,
     )
     complete: Field[bool] = Field(

@@ -44,7 +44,7 @@ class ForceDiagram(Result, row="link", title="ForceDiagram: {_links} links, coni
         "Load on each pin without the support, shape (N, 2): centrifugal force outwards, weight (negative)."
     )
     ray: Field[Floats] = Field(
-        "Vector from the pole to ``Q_m``, shape (N, 2): parallel to link m, the side between pins m - 1 and m."
+        "Vector from the pole to ``Q_m``, shape (N, 2): parallel to link m, the side between pins m and m + 1."
     )
     reaction: Field[Floats] = Field(
         "Reaction at the upper pin of each link on the chain below, shape (N, 2); for point masses the ray."

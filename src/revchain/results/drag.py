@@ -87,8 +87,8 @@ class DragShape(Result, row="link", title="{summary}", notes=("{_remarks}",), go
         "Torque times speed, W: the power that the drag takes.", lambda s: s.torque * abs(s.angular_speed), fact=True
     )
     status: Field[str] = Field(
-        "``'success'``; ``'fold'`` if the way to this speed or drag turns back at `factor` and does not lead there; "
-        "``'stalled'`` if the continuation did not converge.",
+        "``'success'``; ``'fold'`` if the way to this speed or drag turns back at `factor` and is not found to lead there; "
+        "``'stalled'`` if the continuation did not converge and met no fold.",
         part=True, fact=True,
     )
     factor: Field[float] = Field(
@@ -97,8 +97,8 @@ class DragShape(Result, row="link", title="{summary}", notes=("{_remarks}",), go
         part=True, fact=True,
     )
     folds: Field[int] = Field(
-        "How often the way there turned back and forth. If it is not 0, a chain whose speed (or drag) grows slowly jumps on "
-        "its way, perhaps to another shape.",
+        "Number of folds on the way, at each of which it turns back or forth again. If it is not 0, a chain whose speed (or "
+        "drag) grows slowly jumps on its way, perhaps to another shape.",
         part=True, fact=True,
     )
     residual: Field[float] = Field(

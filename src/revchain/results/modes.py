@@ -80,7 +80,8 @@ class Certificate(Result, row="mode", title="Certificate: intervals proved to ho
 class OtherModes(Result, row="number", title="{summary}"):
     """The m solutions of a rig that are not steady motions: negative or complex conical heights, or complex speeds.
 
-    An infinite height (speed 0) belongs to a link without net weight in the fluid, which is at rest in any position.
+    An infinite height (speed 0) belongs to each of the lowest links that have no net weight in the fluid: they are at rest
+    in any position.
 
     Examples
     --------
@@ -222,8 +223,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
     system: Field[Any] = Field("The system.")
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", fact=True)
     number: Field[Whole] = Field(
-        "Mode numbers, shape (k,): the slowest of all modes has number 1. For a rig with flywheels the number among those of "
-        "its direction.",
+        "Mode numbers, shape (k,): the slowest of all modes has number 1. For a rig with flywheels the number among those "
+        "of its direction. With dashpots the numbers are by the size of `exponent`, of both directions together.",
         otherwise=lambda m: np.arange(m._found().first, m._found().first + len(m)),
         heading="mode",
         column="mode",
@@ -273,12 +274,13 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
     )
     error_bound: Field[Numbers] = Field(
         "Bound of the relative error of each conical height, shape (k,), for the data exactly as stored. It is proved; for "
-        "cords it is checked by measurement. With dashpots, of each exponent: the error divided by the size of the exponent.",
+        "cords, and for formulas that `rtol` allows, it is checked by measurement. With dashpots, of each exponent: the "
+        "error divided by the size of the exponent.",
         heading="error bound",
     )
     nodes: Field[tuple[Numbers, ...]] = Field(
         "For each mode, the distances from the free end along the chain at which it crosses the axis, excluding supports. "
-        "With dashpots none: no point stays on the axis.",
+        "With dashpots none are listed: in general no point stays on the axis.",
         _nodes,
         axes=("node",),
         unit="m",
@@ -308,7 +310,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
     )
     error_estimate: Field[Floats] = Field(
         "With dashpots: estimate of the relative error of each exponent, shape (k,), also where `error_bound` is "
-        "infinite because nothing is proved; else `speed_error_bound`.",
+        "infinite because nothing is proved. Without dashpots `speed_error_bound`.",
         otherwise=lambda m: m.speed_error_bound,
         axes=(),
     )
@@ -329,17 +331,18 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
     )
     shape: Field[Numbers] = Field(
         "Offsets of the pins from the axis, shape (k, N + 1), free end first, support last. The largest magnitude of each "
-        "mode is 1, and the free end (of a held chain the lowest inner pin) is positive. With dashpots they are complex, "
-        "and the largest is 1: the real part is the shape at the instant when that pin is farthest out. For a cord: "
-        "offsets of the places `arc_length`, shape (k, 201); that of the free end is 1. For a cord held at both ends the "
-        "largest, at the lowest vertical point, is 1.",
+        "mode is 1, and the free end (of a held chain the lowest pin that can move) is positive. With dashpots they are "
+        "complex, and the largest is 1: the real part is the shape at the instant when that pin is farthest out. For a "
+        "cord: offsets of the places `arc_length`, shape (k, 201); that of the free end is 1. For a cord held at both ends "
+        "the largest, at the lowest vertical point, is 1.",
         otherwise=lambda m: m.along(m.arc_length),
         axes=("pin",),
     )
     vertical_points: Field[tuple[Numbers, ...]] = Field(
-        "For a cord: for each mode the distances from the free end at which the cord is vertical, one above each node: the part "
-        "below has its centre of gravity on the axis, section 4 (13), (14) of the paper. For a cord held at both ends: one "
-        "below each node, and one below the upper end.",
+        "For a cord: for each mode the distances from the free end at which the cord is vertical, one above each node: the "
+        "part below has its centre of gravity on the axis, section 4 (13), (14) of the paper. With a bob another can lie "
+        "below the lowest node. Where the cord turns back at a point mass, that is the place. For a cord held at both ends: "
+        "one below each node, and one below the upper end.",
         _vertical_points,
     )
     bob_slope: Field[Floats] = Field(
@@ -377,7 +380,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         fact=True,
     )
     available: Field[tuple[int | None, int]] = Field(
-        "Number of existing modes, forward and backward; None for the infinitely many of a cord.",
+        "Number of existing modes, forward and backward; None for the infinitely many of a cord. With dashpots the first is "
+        "the number of all, the second 0.",
         otherwise=lambda m: (m.system.mode_count, 0),
     )
     has_momentum: Field[bool] = Field(
@@ -478,7 +482,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         support_mass: float | str | None = None,
         tip_mass: float | str | None = None,
         tip_weight: float | str | None = None,
-        exponent: float | None = None,
+        exponent: float | str | None = None,
         tension: float | str | None = None,
         worst: bool = False,
     ) -> Uncertainty:
@@ -501,7 +505,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
             quantities are independent, and so are those of different links without a covariance. For a cord: one number for
             the mass or the length of the whole cord.
         momentum, spin : array_like, optional
-            Those of the flywheels of a rig, in the same forms. Give only one: `spin` if the flywheels were given by spin.
+            Those of the flywheels of a rig, in the same forms. Give only one; `spin` only if they were given by spin.
         displaced_mass, added_mass : array_like, optional
             Those of the fluid, in the same forms; weights for a rig given by weight.
         stiffness, support_mass : float or str, optional
@@ -586,7 +590,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         -------
         ndarray, shape (k,) or (k, places)
             Offsets divided by that of the free end; for a cord held at both ends, by the largest. Accuracy, relative to the
-            largest offset of each mode (which exceeds 1 with a tip and for p below -1/2): 1e-15 times the mode number, twice
+            largest offset of each mode (it can exceed 1 with a tip and for p below -1/2): 1e-15 times the mode number, twice
             that with a tip; for a density s^p 1e-15 times ``1 + 2 sqrt((p + 1) length / conical_height)``; 1e-14 by power
             series. Cost: 0.2 to 10 microseconds for each mode and place.
 

@@ -25,8 +25,9 @@ MOST_RESONANCES = 60  # largest number that a plot marks; more would blacken it
 class Response(Result, Moving):
     """Forced motion of a chain or rig whose support is moved or pushed, at one or more speeds; returned by `response`.
 
-    Arrays have the shape of the given speeds, ``(...)``; those of pins have one more axis. If the support moves to and fro
-    along a line (base excitation), the numbers are amplitudes. Without dashpots all pins move in phase or in antiphase.
+    Arrays have the shape of the given speeds, ``(...)``; those of pins have one more axis. Without flywheels and a fluid
+    that turns, the numbers are also amplitudes for a support that moves to and fro along a line (base excitation). Without
+    dashpots all pins move in phase or in antiphase.
     With dashpots offsets and forces are complex: the real part of ``offset * exp(1j * angular_speed * time)`` is where a pin
     is while the drive goes as the cosine. What the fields say about dashpots holds for linear drag, too.
 
@@ -82,8 +83,9 @@ class Response(Result, Moving):
         part=True,
     )
     modes_below: Field[Whole] = Field(
-        "Number of whirl speeds of the system, without dashpots and with a fixed support (with a force: one that yields), "
-        "that are below the speed, shape (...). A resonance that cannot be separated from the speed is not counted.",
+        "Number of whirl speeds of the system, without dashpots, that are slower and of the same direction, shape (...). A "
+        "support on a spring yields, a trolley only with a force. A resonance that cannot be separated from the speed is "
+        "not counted.",
     )
     reversed: Field[Flags] = Field(
         "Whether the free end is on the side opposite to the support (to the force), shape (...); with dashpots, whether it is "
@@ -308,7 +310,8 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
     velocity: Field[Numbers] = Field("Velocities of the pins or places, m/s, like `offset`.", axes=("pin",), unit="m/s")
     angular_frequency: Field[Floats] = Field(
         "Natural angular frequency of each mode, rad/s, shape (k,), slowest first: the whirl speeds of `modes`, negative for "
-        "backward whirls (of links that do not turn about their own axes). With dashpots 0 for what only decays.",
+        "backward whirls (of links that do not turn about their own axes). With dashpots 0 for what only decays, in the "
+        "order of ``abs(exponent)``.",
         fact=True,
     )
     exponent: Field[Complex | None] = Field(
@@ -335,8 +338,8 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
         "`sway` of the free end, m.", lambda s: None if s.sway is None else float(s.sway[0])
     )
     energy: Field[Floats | None] = Field(
-        "Energy of each mode, J (weight times length), shape (k,); it is constant. It is negative if momentum keeps an "
-        "inverted link from falling. None where there is an `error_estimate`.",
+        "Energy of each mode, J (weight times length), shape (k,); it is constant. That of a slow whirl is negative if "
+        "momentum keeps an inverted link from falling. None where there is an `error_estimate`.",
         fact=True,
     )
     shape: Field[Numbers] = Field(
@@ -350,8 +353,8 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
         fact=True,
     )
     start: Field[Numbers | None] = Field(
-        "Offsets at time 0 of the pins of a chain or rig without momentum, shape (N + 1,): those given; pins without inertia "
-        "move at once to the positions where their neighbours pull them. Else None.",
+        "Offsets at time 0 of the pins of a chain or rig, shape (N + 1,): those given; pins without inertia move at once to "
+        "the positions where their neighbours pull them. None for a cord, and for momentum without `error_estimate`.",
         fact=True,
     )
     projected: Field[bool] = Field("Whether `start` differs from the given offsets.", fact=True)

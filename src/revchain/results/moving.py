@@ -34,19 +34,20 @@ class Moving:
         ----------
         path : path-like
             Ends in ``.gif``, ``.mp4`` or ``.html``. The page is one file that shows the model of `to_glb` in three
-            dimensions, in any browser with WebGL and without a network.
+            dimensions, in any browser with WebGL 2 and without a network.
         figures : iterable of int, optional
             Which of several: modes by their numbers; shapes and branches by their positions in the list, from 0. The first
             six if left out.
         time_scale : float, optional
             Seconds of motion in one second of film: 1 is real time, 0.1 ten times slower. If left out, it is chosen so
-            that the fastest figure takes about 0.8 s or more for a turn; of a swing 1, unless it takes more than 10 s. The
-            film says what it is.
+            that the fastest figure takes about 0.8 s or more for a turn; of a swing 1, unless it takes more than 10 s or
+            `duration` is given. The film says what it is.
         duration : float, optional
-            Seconds of film. If left out: one turn of the slowest figure, or the whole swing, at most 10 s; 12 s for a branch
-            or a response at several speeds.
+            Seconds of film. If left out: one turn of the slowest figure, at most 10 s; the whole swing, at most 10 s unless
+            `time_scale` is given; 12 s for a branch or a response at several speeds.
         frames_per_second : float
-            Frame rate of ``.gif`` and ``.mp4``, 0.1 to 1000. A GIF counts hundredths of a second and takes the nearest rate.
+            Frame rate of ``.gif`` and ``.mp4``, 0.1 to 1000. A GIF shows each
+            frame for whole hundredths of a second, at least 2.
         progress : callable, optional
             Called with the number of frames drawn and that of all frames; of a page, with numbers of figures.
 
@@ -56,6 +57,8 @@ class Moving:
             If the path has another ending, a number is not positive and finite or the frame rate is out of its range,
             `figures` names what is not there or is given for a single result, there is nothing to draw, the film has too
             many frames, a figure of a page turns more than 5000 times, or a response does not have every pin.
+        TypeError
+            If `path` is not a path or `progress` is not a function.
         ImportError
             If a package is missing that the ending needs; the message says how to install it.
         OSError
@@ -63,8 +66,9 @@ class Moving:
 
         Notes
         -----
-        Between two points of a branch, and two speeds of a response, offsets and heights are interpolated. A response is
-        drawn smaller where it exceeds the picture; the caption says by how much. A page has 600 KB for its viewer,
+        Between two points of a branch, and two speeds of a response, offsets and heights are interpolated. So are offsets
+        between two times of a swing that has an `error_estimate`. A response is drawn smaller where it exceeds the picture;
+        the caption says by how much. A page has 600 KB for its viewer,
         three.js, and four thirds of the size of the ``.glb`` file. On it, figures that only turn do so without end.
 
         Examples
@@ -140,8 +144,9 @@ class Moving:
     ) -> None:
         """Write the motion as a 3D model: a binary glTF file for viewers, presentations, Blender and ParaView.
 
-        Upwards is y, in metres. Each figure is a node with its axis and a node ``turning``, whose rotation is an
-        animation channel; in that are the links, bodies, rods of the same inertia, flywheels, the support and its arm.
+        Upwards is y, in metres. Each figure is a node with its axis and a node ``turning``; if it turns, its
+        rotation is an animation channel. In that node are the links, the support and its arm. Of at most 40 links there
+        are also bodies, rods of the same inertia and flywheels.
 
         Parameters
         ----------
@@ -161,13 +166,15 @@ class Moving:
         ------
         ValueError
             If the path has another ending, or as `animate`.
+        TypeError
+            As `animate`.
         OSError
             (a ValueError too) If the file cannot be written.
 
         Notes
         -----
-        Offsets are drawn as in `animate`. Thickness is for sight only. A chain of more than 400 links is drawn through
-        400 of its pins.
+        Offsets are drawn as in `animate`. Thickness is for sight only. A chain of more than 400 links is drawn as
+        400 straight pieces.
 
         Examples
         --------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The parts of a system as tables: numbers of the whole, and one row for each link."""
+"""The parts of a system as tables: numbers of the whole, and one row for each link or point mass."""
 
 from __future__ import annotations
 

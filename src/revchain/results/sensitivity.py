@@ -29,7 +29,7 @@ OF_CORDS = ("length", "mass", "tip_mass", "exponent", "tension", "masses")
 
 
 class Sensitivity(Result):
-    """Derivatives of some numbers with respect to each datum of a system, all other data constant.
+    """Derivatives of some numbers with respect to data of a system, all other data constant.
 
     ``s.mass`` and ``s["mass"]`` are arrays by a datum of the links, shape (R, N), links lowest first, or by another datum,
     shape (R,), for R numbers: the conical heights of the modes of a chain or cord, the whirl speeds of the modes of a
@@ -70,10 +70,10 @@ class Sensitivity(Result):
     Laws for what hangs: the relative derivatives of a height by masses add up to 0, those by lengths, centroids and radii of
     gyration to 1, and those by lengths in proportion to 1; each of the last is the link's share of the potential energy.
     Method for modes: ``(y' dM y - height y' dK y) / (y' K y)`` in double-double, from the shape y alone, O(N) for each mode.
-    Accuracy: of chains `error_bound`, in most cases half an ulp, proved; of rigs that of the shapes, 1e-14 of the largest;
-    of cords 1e-12 of the height divided by the datum. For shapes: implicit function theorem, O(N^3), 20 ms for 200 links;
-    1e-12 of the largest of a kind, or 1e-13 times `SteadyShape.condition` if that is more. At a fold of a branch the exact
-    derivatives are infinite.
+    Accuracy: of chains within `error_bound`, which is proved and in most cases 1 to 2 ulp; of rigs that of the shapes,
+    1e-14 of the largest; of cords 1e-12 of the height divided by the datum. For shapes: implicit function theorem, O(N^3),
+    20 ms for 200 links; 1e-12 of the largest of a kind, or 1e-13 times `SteadyShape.condition` if that is more. At a fold
+    of a branch the exact derivatives are infinite.
 
     Examples
     --------
@@ -216,7 +216,8 @@ class Uncertainty(Result, row="mode", title="Standard deviations"):
     )
     largest: Field[tuple[str, ...]] = Field(
         "For each mode the path of the datum that contributes most, such as ``'links[load].mass'``; empty if the mode is "
-        "exact. `tune` and `fit` accept these paths; there the length of a point mass or rod moves its centre of gravity.",
+        "exact. `tune` and `fit` accept these paths, but for ``'exponent'``; there the length of a point mass or rod moves "
+        "its centre of gravity.",
     )
     _largest_part: Field[list[str]] = Field(
         "`largest`, or that there is nothing.",

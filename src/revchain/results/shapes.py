@@ -80,10 +80,10 @@ class Stability(
         "All ``s`` of ``exp(s n t)``, ordered by imaginary part, without those of the rotation itself: ``4 N - 2`` for N "
         "links in the free frame, ``2 N`` in the driven frame; for N links held at both ends ``4 N - 8`` and ``2 N - 4``. "
         "The links are rods without inertia about their own axes. A pin without mass reduces the number: the two links "
-        "that meet there stay in line. Each end that yields adds 4 in the free frame, 2 in the driven frame. An end "
-        "carried round adds 2 in the free frame, because no rotation is left out. An end that yields where no mass moves "
-        "adds 2 in both frames. For a cord the slowest of infinitely many, up to the first on which two discretisations do "
-        "not agree to 1e-6.",
+        "that meet there stay in line. Each end that yields adds 4 in the free frame, 2 in the driven frame. If an end is "
+        "carried round, or both are, 2 are added in the free frame, because no rotation is left out. An end that yields "
+        "where no mass moves adds 2 in both frames. For a cord the slowest of infinitely many, up to the first on which "
+        "two discretisations do not agree to 1e-6.",
         heading="growth (n)",
         column="value",
         shown=lambda s: s.exponents.real,
@@ -110,12 +110,13 @@ class Stability(
     external_damping: Field[Floats] = Field(
         "Effect of drag in still air on each exponent, in m/kg: this number times a small drag c is added to the "
         "growth rate. The drag c, N s/m^2, is the force per metre of link divided by its velocity in space. Without "
-        "flywheels, a drag proportional to mass lowers each growth rate by half the ratio of drag to mass.",
+        "flywheels and dashpots, a drag proportional to mass lowers each growth rate by half the ratio of drag to mass. "
+        "NaN if two exponents coincide.",
         heading="with drag in air",
     )
     growth_rate: Field[float] = Field(
-        "Largest real part of the exponents, in units of the turning speed; in a rotating fluid 0 for a minimum, NaN "
-        "for any other shape.",
+        "Largest real part of the exponents, at least 0, in units of the turning speed; in a rotating fluid 0 for a "
+        "minimum, NaN for any other shape.",
         fact=True,
     )
     margin: Field[float] = Field(
@@ -144,7 +145,7 @@ class Place(NamedTuple):
     height : float or ndarray
         Height above the support (of a held cord: above its lower end), m; negative if the cord hangs.
     inclination : float or ndarray
-        Inclination to the vertical, rad; positive if the offset decreases going up.
+        Inclination to the vertical, rad; positive if the offset decreases towards the upper end.
     tension : float or ndarray
         Tension, N or in the unit of the weights.
 
@@ -163,7 +164,7 @@ class Place(NamedTuple):
 
 
 def forced(name: str) -> Callable[[Any], Any]:
-    """A function that returns a force of the compiled result, times gravity if masses were given."""
+    """A function that returns a force or energy of the compiled result, times the factor `_per` of the result."""
 
     def compute(result: Any) -> Any:
         found, per = result._found(), result._per
@@ -224,15 +225,19 @@ class SteadyShape(
     rpm: Field[float] = Field("Revolutions per minute.", lambda s: s.angular_speed * (60 / TURN), fact=True)
     period: Field[float] = Field("Time of one revolution, s.", lambda s: TURN / s.angular_speed)
     conical_height: Field[float] = Field("Conical height of the speed, m; 0 without gravity.", fact=True)
-    half_waves: Field[int] = Field("Sign changes of the offsets, plus one.", fact=True)
+    half_waves: Field[int] = Field(
+        "Sign changes of the offsets, plus one; for a held system about the line between the ends (with springs: between "
+        "their rest positions).",
+        fact=True,
+    )
     error_bound: Field[float] = Field(
         "Bound of the error of each inclination, rad; an estimate unless `proved`. For a cord also of each offset and "
         "height divided by the length; measured errors reach 0.6 of it.",
         fact=True,
     )
     proved: Field[bool] = Field(
-        "Whether `error_bound` is proved; else it is an estimate: for cords, at a fold of a branch, and where the "
-        "proof fails.",
+        "Whether `error_bound` is proved; else it is an estimate: for cords, at a fold of a branch, with "
+        "``prove=False``, and where the proof fails.",
         fact=True,
     )
     residual: Field[float] = Field(
@@ -277,7 +282,7 @@ class SteadyShape(
     )
     inclination: Field[Floats] = Field(
         "Inclination of each link or place to the vertical, rad, within (-pi, pi]: to the downward vertical for "
-        "hanging systems, to the upward one for held systems; positive if the offset decreases going up.",
+        "hanging systems, to the upward one for held systems; positive if the offset decreases towards the upper end.",
     )
     offset: Field[Floats] = Field("Signed distance of each pin or place from the axis, m.")
     height: Field[Floats] = Field(
@@ -391,16 +396,16 @@ class SteadyShape(
             ``undecided``. Dashpots at the pins of a `Rig` (`Pin`) damp the exponents; `Stability.internal_damping` and
             `Stability.external_damping` give the effect of a little more at the pins and of drag. Cost: O(N^3): 0.4
             milliseconds for twenty links, 20 for a hundred; much longer where double precision loses digits and twice
-            the digits are used. For cords see `Stability.exponents`; the verdict is ``undecided`` if two discretisations
-            differ in more than the growth rate. Cost: 6 milliseconds for a shape without nodes, 0.1 s for one of three
-            half waves.
+            the digits are used. For cords see `Stability.exponents`; the verdict is ``undecided`` if the growth rate is
+            0.01 to 1 times `Stability.margin`, or if two discretisations have different `negative_directions`. Cost: 6
+            milliseconds for a shape without nodes, 0.1 s for one of three half waves.
 
         Raises
         ------
         ValueError
             If `frame` is another word; if a motion moves no mass (a movable pin of a held chain without mass, but for
-            an upper end on a spring), or a flywheel or a dashpot acts on a support that yields where no mass moves; if,
-            in the free frame of a support on the axis, a rig has dashpots and driven wheels.
+            an upper end on a spring), or a flywheel or a dashpot acts on a support that yields where no mass moves; if
+            a support rolls freely; if, in the free frame of a support on the axis, a rig has dashpots and driven wheels.
 
         Notes
         -----
@@ -492,7 +497,7 @@ class SteadyShape(
         Raises
         ------
         ValueError
-            If the shape is not that of a `Chain`.
+            If the shape is not that of a `Chain`, or has an inverted link.
 
         Notes
         -----

@@ -94,7 +94,7 @@ class Sheet:
     notes : list of str
         Lines below the table.
     good : bool
-        Whether everything was found and proved.
+        Whether everything was found and proved; also true for shapes of a held system or of one branch.
     spread : bool
         Whether a long table prints evenly spaced rows instead of the first ones.
     named : callable, optional
@@ -281,7 +281,10 @@ def in_columns(sheet: Sheet, most: int = MOST_COLUMNS) -> list[Column]:
 
 
 def as_csv(sheet: Sheet) -> str:
-    """The table as CSV: one line for each row, with all digits; a column for each pin; other arrays separated by blanks."""
+    """The table as CSV: one line for each row, with all digits of a double.
+
+    There is a column for each pin; other arrays are separated by blanks.
+    """
     import csv
     import io
 

@@ -32,7 +32,7 @@ NOT_OURS = "is not a result that revchain saved, or was damaged since; compute a
 
 
 class NotRead(ValueError):
-    """The error for a file of which all that there is to say is known."""
+    """The error for a file that is not read for a known reason; its message is complete."""
 
 
 class UnknownKind(ValueError):

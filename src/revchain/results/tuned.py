@@ -34,8 +34,9 @@ class Tuned(Result, row="value", title="Tuned: {summary}", good="status"):
     vary: Field[str] = Field("Path of the datum, as given.", fact=True)
     system: Field[Any] = Field("The system with the new `value`; None if none was found.")
     value: Field[float | None] = Field(
-        "The value nearest to the present one; for weights the nearest by ratio, or another within a few percent of it. None "
-        "if none was found.", fact=True,
+        "The value nearest to the present one. In a search it is the nearest by ratio, except for a centroid, a "
+        "radius of gyration, a span, or if the present value is 0. For a weight of a chain it is the nearest by ratio, or "
+        "another within a few percent of it. None if none was found.", fact=True,
     )
     error_bound: Field[float | None] = Field(
         "Proved bound of the absolute error of `value`; an estimate for cords, as the bounds of their modes are, and with "
@@ -44,8 +45,8 @@ class Tuned(Result, row="value", title="Tuned: {summary}", good="status"):
     )
     values: Field[Floats] = Field("All values found in the range, ascending.", heading="value", column="value")
     complete: Field[bool] = Field(
-        "Whether `values` has all values in the range. For a weight of a chain it has only the nearest on either side of the "
-        "present value; in a search, those between neighbours of 65 values.", fact=True,
+        "Whether `values` is known to have all values in the range. False for a weight of a chain: it has only the nearest "
+        "on either side of the present value; in a search, those between neighbours of 65 values.", fact=True,
     )
     present: Field[float] = Field("Present value of the datum.", fact=True)
     between: Field[Pair] = Field("Range of the search.", fact=True)

@@ -83,13 +83,14 @@ class WorstCase(Result, row="mode", title="{_words}", notes=("{_remarks}",)):
         digits=2,
     )
     lowest_at: Field[dict[str, Floats]] = Field(
-        "Data at which each lowest speed is reached, by keyword or path: shape (k, N) for a keyword for links, else (k,)."
+        "Data at which each lowest speed is reached, by path or keyword (weights by that of the mass): shape (k, N) for a "
+        "keyword for links, else (k,)."
     )
     highest_at: Field[dict[str, Floats]] = Field("Data at which each highest speed is reached, in the same form.")
     boxes: Field[Whole] = Field("Number of parts of the box that were examined for each mode, shape (k,).")
     status: Field[str] = Field(
-        "``'success'``, or ``'budget_spent'`` if a gap is above 5 % of the range after the largest number of boxes. "
-        "The bounds are proved in both cases.",
+        "``'success'``, or ``'budget_spent'`` if a gap is above 5 % of the range after the largest number of boxes, or if "
+        "nothing is proved. The bounds hold in both cases.",
         lambda w: "success" if not (w.gap > CLOSE).any() else "budget_spent",
         fact=True,
     )
@@ -167,7 +168,7 @@ def data_of(system: Any, gravity: float) -> Floats:
 
 
 def refuse_unbounded(caller: str, system: Any) -> None:
-    """Raise a ValueError unless the forms of the system are those of a `Family`."""
+    """Raise a ValueError for links whose forms are not those of a `Family`, and for more than 100 links."""
     reason = ""
     if system._kind == "rig":
         parts = {

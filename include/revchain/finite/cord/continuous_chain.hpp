@@ -300,7 +300,8 @@ class CordModeShape {
     /// Returns where the cord crosses the axis, ascending, without the support.
     Vector<double> nodes() const { return crossings(tip_.offset < 0 ? 1 : 0); }
     /// Returns where the cord is vertical, once above each node: T y'' = -rho (y / height + y').
-    /// Where it turns back at a particle, that is the place.
+    /// Where it turns back at a particle, that is the place. With a bob another can lie below the
+    /// lowest node.
     Vector<double> vertical_points() const {
         // a bob across the axis may be across its own vertical point too
         const bool passed = tip_.offset < 0 && tip_.pull > 0;
