@@ -180,7 +180,8 @@ std::vector<HeldBranch> branches(const Held<Chain<double>>& held,
     const auto [span, least] = detail::span_and_height(held.by(), options);
     const finite::HeldSupports supports{held.by().lower, held.by().upper, {}};
     std::vector<HeldBranch> result;
-    std::vector<HeldShape> last;  // a branch that returns ends where another would begin
+    // a branch that returns ends where another would begin; two ways may lead to one beginning
+    std::vector<HeldShape> known;
     const int most = (held.by().on_axis() ? 1 : 2) * static_cast<int>(held.system().size() - 1);
     const int gap = supports.plain() ? 1 : 4;  // with arms or springs a branch may end although the
                                                // next exists
@@ -188,9 +189,10 @@ std::vector<HeldBranch> branches(const Held<Chain<double>>& held,
         auto branch =
             finite::held_branch(held.system(), supports, span, least, mode, options.max_step);
         without = branch ? 0 : without + 1;
-        if (!branch || branch->shapes.empty() || finite::has(last, branch->shapes.front()))
+        if (!branch || branch->shapes.empty() || finite::has(known, branch->shapes.front()))
             continue;
-        if (branch->end == HeldBranchEnd::speed) last.push_back(branch->shapes.back());
+        known.push_back(branch->shapes.front());
+        if (branch->end == HeldBranchEnd::speed) known.push_back(branch->shapes.back());
         result.push_back(std::move(*branch));
     }
     return result;

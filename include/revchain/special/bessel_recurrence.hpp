@@ -46,6 +46,9 @@ class ScaledBessel {
                 if (m > 1) weight *= (base + 2 * m - 2) / (base + m - 1);
                 total += weight * here;
             }
+            // the quotient below keeps its value; orders of thousands would overflow
+            if (std::abs(here) > 1e100) here *= 1e-100, above *= 1e-100, total *= 1e-100;
+            if (weight < 1e-100) weight *= 1e100, total *= 1e100;
         }
         if (order_ < 0) here = (base * step * here - above) / (base * step);
         return here / total * weight;

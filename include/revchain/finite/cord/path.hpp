@@ -40,7 +40,8 @@ class Path {
         : kind_(kind) {
         PathState state = kind.at_tip(tip_offset);
         PathChange change{0, 1, -kind.tip, 0};
-        if (state.offset < 0) crossings_.push_back({});  // the bob is across the axis
+        if (state.offset < 0 || (state.offset == 0 && state.pull < 0))
+            crossings_.push_back({});  // the bob is across the axis
         if (kind.is_bare()) {
             const TipSeries series(tip_offset, kind.bend, options.tolerance);
             steps_.push_back({state, series.reach});

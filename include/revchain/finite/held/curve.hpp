@@ -223,6 +223,12 @@ class HeldCurve {
         return {y.cwiseProduct(scale), z.cwiseProduct(scale)};
     }
 
+    template <Third third>
+    Triple along_curve(const HeldEnd<double>& end, const Triple& scale) const {
+        const auto [over_y, over_z] = gradients<third>(end, scale);
+        return cross(over_y.normalized(), over_z.normalized()).normalized();
+    }
+
     template <Third third, class Visit>
     void step_along(HeldState state, bool up, Visit&& visit, double max_step = 0.3) {
         double step = 0.05;
@@ -230,8 +236,7 @@ class HeldCurve {
         if (!end.known) return;
         Triple last{0, 0, up ? 1.0 : -1.0}, scale = scales<third>(state);
         for (int count = 0; count < max_steps; ++count) {
-            const auto [over_y, over_z] = gradients<third>(end, scale);
-            Triple tangent = cross(over_y.normalized(), over_z.normalized()).normalized();
+            Triple tangent = along_curve<third>(end, scale);
             if (!(tangent.norm() > 0.5)) return;
             if (tangent.dot(last) < 0) tangent = -tangent;
             HeldState next;
@@ -239,6 +244,9 @@ class HeldCurve {
             const auto attempt = [&](double reach) -> std::optional<double> {
                 int rounds = 0;
                 if (!correct<third>(state, scale, tangent, reach, next, there, rounds)) return {};
+                // A curve that turns by more than 26 degrees may be another one. (Both ways along
+                // it are taken: where two curves cross, the products change sign.)
+                if (!(std::abs(along_curve<third>(there, scale).dot(tangent)) > 0.9)) return {};
                 return rounds <= 3 ? 1.7 : rounds > 5 ? 0.6 : 1.0;
             };
             if (!detail::arc_step(step, max_step, 0.4, attempt)) return;

@@ -328,7 +328,7 @@ HeldShapes held_shapes(const Chain<double>& chain, const HeldSupports& supports,
                 add(held.finished(*state, Fine(apart), lambda, options.prove));
         }
     });
-    if (!supports.plain()) keep_different(list, options.max_half_waves);
+    keep_different(list, options.max_half_waves);
     if (options.prove)
         complete(list, held, lambda, {.value = Interval<double>(apart), .is_span = true}, options);
     return list;
