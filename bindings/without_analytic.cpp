@@ -7,8 +7,9 @@ namespace {
 
 [[noreturn]] void refuse() {
     throw py::import_error(
-        "revchain was built without GSL (REVCHAIN_ANALYTIC=OFF): modes and branches of cords, ropes, governors and "
-        "elliptic functions need it. Install a wheel of revchain, or install GSL and build without this option");
+        "revchain was built without GSL (REVCHAIN_ANALYTIC=OFF): modes and branches of cords, ropes, motions of "
+        "governors and elliptic functions need it. Install a wheel of revchain, or install GSL and build without this "
+        "option");
 }
 
 /// Makes a function of other systems raise ImportError for this one.

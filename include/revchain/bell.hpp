@@ -44,8 +44,9 @@ using ByBellDatum = std::array<T, bell_datum_names.size()>;
 
 /// The two modes of small motion about a position of rest. If both modes swing, or both fall, bell
 /// and clapper lean to the same side in the first and to opposite sides in the second, so they can
-/// swing as one piece in the first only.
-/// With the pin of the clapper below the axle the first is the slower one, above it the faster one.
+/// swing as one piece in the first only. If both swing, the first is the slower one with the pin of
+/// the clapper below the axle, the faster one with the pin above it. If both fall, it is the other
+/// way round.
 /// An inverted body stands on its upper pin. A height below 0 is that of a motion that falls; if one
 /// mode swings and the other falls, the first is the one that swings.
 template <Real T>
@@ -63,7 +64,7 @@ struct BellAndClapper {
 
 /// Both modes of a bell (upper link) and its clapper (lower link), how far they are from one piece,
 /// and the derivatives of the first mode's ratio of inclinations. Accuracy: heights and ratios 2
-/// ulp, derivatives 4 ulp of the sum of their terms' magnitudes (tests/cpp/bell.cpp). Cost O(1).
+/// ulp, derivatives, each times its datum, 1e-15 of the largest (tests/cpp/bell.cpp). Cost O(1).
 /// Throws InvalidArgument unless there are two links, both with weight.
 /// `joint`: distance of the clapper's pin below the axle, instead of the bell's length; negative
 /// above it, and 0 in it: then each swings alone. `inverted`: whether clapper and bell stand on
@@ -75,8 +76,9 @@ template <Real T>
     const std::array<bool, 2>& inverted = {});
 
 /// Returns, for each datum, the value nearest to the present one that gives the first mode the
-/// inclination ratio `ratio`, with all other data constant; NaN if there is none. A ratio of 1
-/// makes bell and clapper one piece; a bell rings with a ratio far enough from 1. Each value is a
+/// inclination ratio `ratio`, with all other data constant; NaN if there is none. Only values count
+/// that keep the pin on its side of the axle, and the stability of the position of rest. A ratio of
+/// 1 makes bell and clapper one piece; a bell rings with a ratio far enough from 1. Each value is a
 /// root of a quadratic. Cost O(1). Throws InvalidArgument as `bell_and_clapper`, for a ratio <= 0
 /// and a joint of 0.
 template <Real T>
@@ -85,7 +87,8 @@ template <Real T>
     const std::array<bool, 2>& inverted = {});
 
 /// How a swing ends. `turns`: the bell comes to rest before the clapper strikes. `at_rest`: bell and
-/// clapper start in balance, stable or not, and do not move. `too_long`: neither in 300 swings.
+/// clapper start in balance, stable or not, and do not move. `too_long`: neither in 300 periods of
+/// the slower body or 30,000 of the faster one.
 enum class StrikeStatus { strikes, turns, at_rest, too_long };
 
 inline constexpr std::array<std::string_view, 4> strike_status_names{"strikes", "turns", "at_rest",
@@ -104,7 +107,7 @@ struct StrikeStart {
     double gravity = 9.80665;  ///< m/s^2
 };
 
-/// The first blow of a clapper; the numbers are NaN if it does not strike.
+/// The first blow of a clapper; angle, speed and time are NaN if it does not strike.
 struct Strike {
     StrikeStatus status;
     bool leading;       ///< the side struck: that ahead in the direction in which the bell moves

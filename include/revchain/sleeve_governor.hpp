@@ -46,7 +46,7 @@ struct GovernorPoint {
     double ball_radius = 0;
     double height = 0;    ///< of the cone: from the ball to where its arm meets the axis
     double lift = 0;      ///< of the sleeve, from inclination 0
-    bool stable = false;  ///< shaft at constant speed: `speed` rises with the inclination
+    bool stable = false;  ///< whether the arms return when disturbed at constant speed
     double period = 0;    ///< of small oscillations, also of a free shaft; NaN if there are none
 };
 
@@ -81,8 +81,9 @@ class SleeveGovernor {
     [[nodiscard]] double speed(double inclination) const { return at(inclination).speed; }
     /// All equilibria at a speed with the arms at most horizontal and the balls on their own side
     /// of the axis, by inclination; stops are ignored. Intervals prove that there are no others.
-    /// `complete` is false if two lie too close together to be told apart, or if the force vanishes
-    /// almost everywhere. Throws InvalidArgument unless 0 <= speed <= 1e100.
+    /// `complete` is false if two lie too close together to be told apart, if the force vanishes
+    /// almost everywhere, or if it drives the arms outwards where they reach farthest. Throws
+    /// InvalidArgument unless 0 <= speed <= 1e100.
     [[nodiscard]] std::vector<GovernorPoint> equilibria(double speed,
                                                         bool* complete = nullptr) const;
     /// The answer to a speed that rises by the fraction `change` from the equilibrium at an

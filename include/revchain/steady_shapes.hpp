@@ -117,8 +117,9 @@ struct SteadyShapes {
 /// 2^-104 of that length, and a sideways pull is an offset over the height. Cost for equal
 /// plummets: the 46 shapes of eight at 1/200 of their length take 5 ms, the 14 shapes of 1000 at
 /// 1/500 of their length 2 s. In any posture, at 1/1000 of the length, the 18 shapes of three take
-/// 2 ms, the 64 of four 12 ms. Threads share the refinement of shapes, about half of the cost;
-/// results are bitwise the same for any number of threads.
+/// 2 ms, the 64 of four 12 ms. Threads share the refinement of shapes, about half of the cost,
+/// with `hanging_only` if each link has one inclination for its load; otherwise they share nothing.
+/// Results are bitwise the same for any number of threads.
 /// Above the first critical height there is no shape in any posture. Proof: let s be the sines of
 /// the inclinations d, G their mass matrix, kappa = W h + a S, D = lambda diag(kappa |sec d|) > G,
 /// and E = diag(+-1) the postures. Then E D s = G s gives, with w = D^1/2 s, |E w| = |D^-1/2 G

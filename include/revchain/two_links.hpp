@@ -175,9 +175,10 @@ struct PairShape {
 /// least the first of `two_plummets`. The list is complete: the proof is in
 /// paper/two_links_shapes.hpp. Cost: 1 microsecond a shape.
 /// Accuracy: inclinations 4 ulp for the data as given, also near a fold and near the vertical.
-/// Rounding of the data changes tangents by up to height_k / (height_k - height) times as much if a
-/// shape leaves the vertical at height_k, and by the square root of the rounding where two shapes
-/// meet. Also throws InvalidArgument for a length/height beyond a third of the range.
+/// Near the vertical, rounding of the data changes tangents by up to about 2 height_k / (height_k -
+/// height) times as much if a shape leaves the vertical at height_k. Where two shapes meet, it
+/// changes them by its square root. Also throws InvalidArgument for a length/height beyond a third
+/// of the range.
 template <Real T>
 [[nodiscard]] std::vector<PairShape<T>> two_plummets_shapes(const T& lower_weight,
                                                             const T& lower_thread,
@@ -294,7 +295,7 @@ template <Real T>
 /// also where l1 and l2 nearly agree; rounding of the data changes the distance by up to 3 (l1 +
 /// l2)/(l2
 /// - l1) + 6 times as much. Also throws InvalidArgument unless the clapper has the shorter pendulum
-/// length: otherwise the bell rings with any pin.
+/// length: otherwise the bell rings with any pin below its support.
 template <Real T>
 [[nodiscard]] T pin_of_silent_clapper(const T& bell_weight, const CompoundLink<T>& bell,
                                       const T& clapper_weight, const CompoundLink<T>& clapper) {

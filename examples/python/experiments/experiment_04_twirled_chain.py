@@ -72,8 +72,8 @@ for turns in (0.4, 0.7, 0.9, 1.1, 1.5, 2.0, 2.5):
     print(f"{turns:14.2f}  {plummet:+7.3f}  {near_the_vertical(turns):+7.3f}  {continuous(turns):+10.3f}")
 
 # %%
-# At any inclination there are several steady shapes at one speed. Two more appear above each speed
-# at which the tip changes sides.
+# At any inclination there are several steady shapes at one speed. Two more appear above each of
+# the first three speeds at which the tip changes sides.
 
 print("plummet on 0.36 m, hand on a circle of radius 5 mm, all steady inclinations, degrees:")
 for turns in (0.7, 0.83, 0.9, 1.0):

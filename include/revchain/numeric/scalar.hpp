@@ -68,7 +68,7 @@ using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1, Eigen::DontAlign>;
 template <class T>
 using Table = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor | Eigen::DontAlign>;
 
-/// A square matrix, used only inside the library.
+/// A square matrix. Of public types only `RecurrencePencil` and `Deviation` hold one.
 template <class T>
 using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
 

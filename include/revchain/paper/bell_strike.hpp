@@ -100,7 +100,8 @@ class RingingPair {
     }
 
     double rate_unit(double gravity) const { return std::sqrt(gravity * unit_); }
-    /// Time up to which a motion is followed: 300 swings of the slower pendulum.
+    /// Time up to which a motion is followed: 300 periods of the slower pendulum, at most 30,000 of
+    /// the faster one.
     double longest() const { return 2000 / std::sqrt(std::max(slowest_, 1e-4)); }
 
     /// Angle, mouth up, at which both as one body balance with the clapper at this angle.

@@ -17,7 +17,7 @@ struct JacobiValues {
 /// Method: theta series in the nome or, for kappa > kappa', in the complementary nome with
 /// hyperbolic functions, so that q <= exp(-pi) and four terms suffice. The argument is reduced to
 /// half a quarter period. DLMF 20.2, 20.7(viii), 22.2. Accuracy: 1e-15 (|f| + |u df/du|) for kappa'
-/// from 1e-150 to 1, so that no digit of sn, cn and dn is known for |u| > 1e15.
+/// from 1e-150 to 1, so that sn, cn and dn can lose every digit for |u| > 1e15.
 /// Cost: 0.3 microseconds to construct, 0.1 for each argument.
 class JacobiFunctions {
    public:

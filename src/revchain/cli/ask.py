@@ -44,8 +44,14 @@ COMMON: dict[str, tuple[Any, Any]] = {
     "units": (Units, "deg"),
     "speed": (Speed, None),
     "plot": (Annotated[Path | None, typer.Option(metavar="FILE", help="Picture: .png, .svg or .pdf.")], None),
-    "json": (Annotated[str | None, typer.Option(metavar="FILE|-", help="All numbers as JSON; - is stdout.")], None),
-    "csv": (Annotated[str | None, typer.Option(metavar="FILE|-", help="All numbers as CSV; - is stdout.")], None),
+    "json": (
+        Annotated[str | None, typer.Option(metavar="FILE|-", help="All numbers but mode shapes as JSON; - is stdout.")],
+        None,
+    ),
+    "csv": (
+        Annotated[str | None, typer.Option(metavar="FILE|-", help="All numbers but mode shapes as CSV; - is stdout.")],
+        None,
+    ),
     "xlsx": (Annotated[Path | None, typer.Option(metavar="FILE", help="All numbers as a workbook: .xlsx.")], None),
     "quiet": (Quiet, False),
 }

@@ -59,7 +59,7 @@ class Report:
         return tables
 
     def check(self, path: Path) -> None:
-        """Raise Stop with exit code 1 unless everything was found and proved."""
+        """Raise Stop with exit code 1 if something was not found, or not proved where a proof is required."""
         missing = getattr(self.found, "missing", ())
         if missing or not self.sheet.good:
             raise Stop(f"{path}: {shortfall(self.found)}", ExitCode.TOLERANCE_NOT_MET)
@@ -79,7 +79,7 @@ class Report:
                 raise OSError(error.errno, error.strerror or str(error), str(file)) from None
 
     def text(self, kind: str) -> str:
-        """The report as ``.txt``, or all numbers as ``.json`` or ``.csv``."""
+        """The report as ``.txt``, or all numbers as ``.json`` or ``.csv``, without the shapes of modes."""
         if kind == ".txt":
             file = io.StringIO()
             self.print(Console(file=file, width=NARROWEST))

@@ -25,8 +25,9 @@ class Strike(NamedTuple):
     position, rad. `relative_speed`: speed of the clapper in the bell, rad/s, positive towards the leading side. `time`:
     time after the start, s. The three numbers are NaN if the clapper does not strike. `status`: ``"strikes"``;
     ``"turns"`` if the bell comes to rest first; ``"at_rest"`` if both start in balance, stable or not, and do not
-    move; ``"too_long"`` if neither happens in 300 swings. `error_estimate`: of `bell_angle` in rad, and of
-    `relative_speed` and `time` relative to their size; infinite if rounding decides whether or where it strikes.
+    move; ``"too_long"`` if neither happens in 300 periods of the slower body or 30,000 of the faster one.
+    `error_estimate`: of `bell_angle` in rad, and of `relative_speed` and `time` relative to their size; infinite if
+    rounding decides whether or where it strikes.
 
     Examples
     --------
@@ -81,9 +82,10 @@ class BellAndClapper(
         "Revolutions per minute, shape (2,).", lambda b: b.angular_speed * (30 / math.pi), heading="speed", unit="rpm"
     )
     conical_height: Field[Floats] = Field(
-        "Conical height of the mode in which both lean the same way, and of that in which they lean opposite ways, m, shape "
-        "(2,). The first is the slower one, unless the pin of the clapper is above the axle. Negative if the motion does "
-        "not swing but falls; if one swings and the other falls, the first is the one that swings.",
+        "Conical height of each mode, m, shape (2,); negative if the motion does not swing but falls. If one mode swings "
+        "and the other falls, the first is the one that swings. Else both bodies lean the same way in the first mode, and "
+        "opposite ways in the second. If both swing, the first is the slower one, unless the pin of the clapper is above "
+        "the axle.",
         heading="height",
         unit="m",
     )
@@ -99,7 +101,7 @@ class BellAndClapper(
     )
     mismatch: Field[float] = Field(
         "``h1 - (m + 1) l1 - m (a2 - l2)``, m: 0 if both swing as one piece. If one is inverted: "
-        "``h1 - (m + 1) l1 + m (a2 - l2)``.",
+        "``h1 - (m + 1) l1 + m (a2 - l2)``. `bell_and_clapper` explains the letters.",
         fact=True,
     )
     present: Field[dict[str, float]] = Field(
@@ -122,8 +124,8 @@ class BellAndClapper(
         ratio: Inclination of the clapper divided by that of the bell, positive. With 1 the bell is silent. To keep it
             ringing, choose a ratio far enough from 1.
         returns: The values nearest to the present ones, each with the other data constant; NaN if no value gives the
-            ratio.
-        raises: If `ratio` is not positive and finite.
+            ratio. Only values count that keep the pin on its side of the axle, and the stability of the position of rest.
+        raises: If `ratio` is not positive and finite, or the pin of the clapper is in the axle.
 
         How far below the axle must the pin of the clapper be, so that the clapper swings 1.5 times as far as the bell?
 
@@ -143,7 +145,7 @@ class BellAndClapper(
         """Return the smallest amplitude of the bell at which the clapper reaches its side, for small swings.
 
         returns: ``clearance / abs(inclination_ratio[0] - 1)``, rad: infinite if both swing as one piece. It is exact
-            in the limit of small swings in the slower mode; above half a radian use `first_strike`.
+            in the limit of small swings in the first mode; above half a radian use `first_strike`.
         raises: If the clearance is not between 0 and pi / 2.
 
         >>> links = {"mass": [18, 500], "length": [0.65, 0.15], "centroid": [0.52, 0.2]}
@@ -166,7 +168,8 @@ class BellAndClapper(
             from 1e-4 rad beside it.
         clapper_angle: Angle of the clapper from the middle of the bell at the start, towards the lower side, rad, from
             ``-clearance`` to ``clearance``. At these ends it rests on the side of the bell while the bell pushes it.
-            If left out, it hangs free or rests on the lower side; in a full circle it rests on the trailing side.
+            If left out, it hangs free or rests on the lower side; in a full circle it rests on the trailing side. Without
+            `amplitude` it must be one of the two ends.
         returns: The first blow up to the next turn of the bell, or the status if there is none.
         raises: If the clearance is not between 0 and pi / 2, or an angle is out of its range; if one of bell and
             clapper is inverted and there is no amplitude.
@@ -245,13 +248,16 @@ def bell_and_clapper(
     raises: If the chain does not have two links with weight, or `gravity` is not positive, or `inverted` has not one or
         two truth values. A TypeError if `chain` is not a `Chain`.
     notes: The ratio r of the inclination of the clapper to that of the bell is a root of
-        ``h1 r^2 - ((m + 1) l1 - m l2 - a2) r - (m + 1) a2 = 0``, one positive and one negative. The conical height is
-        ``l1 + a2 / r``. An inverted clapper changes the sign of l1 in the height, an inverted bell that of a2. If one
-        of the two is inverted, the equation is ``h1 r^2 - (m + 1) l1 r - (m l2 + a2) r + (m + 1) a2 = 0``; of bodies that
+        ``h1 r^2 - ((m + 1) l1 - m l2 - a2) r - (m + 1) a2 = 0``. One root is positive and one negative, unless
+        ``(m + 1) a2`` is negative: then one mode swings, the other falls. The clapper has the centroid h1 and the
+        pendulum length l1, the bell h2 and l2. The joint is a2, and m = W2 h2 / (W1 a2), with the weights W1 and W2. The
+        conical height is ``l1 + a2 / r``. An inverted clapper changes the sign of l1 in the height, an inverted bell
+        that of a2. If one of the two is inverted, the equation is
+        ``h1 r^2 - (m + 1) l1 r - (m l2 + a2) r + (m + 1) a2 = 0``; of bodies that
         both hang otherwise, one mode then swings, the other falls. All this holds for small inclinations, and for any
         inclination if both swing as one piece.
 
-    The ratio grows with the distance of the centre of gravity of the bell below the axle:
+    For this bell the ratio grows with the distance of its centre of gravity below the axle:
 
     >>> chain = rc.Chain(weight=[18, 500], length=[0.65, 0.15], centroid=[0.52, 0.2], radius_of_gyration=[0.08, 0.3])
     >>> rc.bell_and_clapper(chain).derivative["bell_centroid"] > 0

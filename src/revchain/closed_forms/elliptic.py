@@ -2,8 +2,9 @@
 """Jacobi's elliptic functions near modulus 1, where ``scipy.special.ellipj`` loses all digits.
 
 Near ``modulus = 1`` give ``complementary_modulus = sqrt(1 - modulus**2)``: it cannot be computed accurately from a
-rounded modulus. `scipy.special.ellipj` takes the parameter ``m = modulus**2``. For complementary moduli above 0.1 its
-errors are below 1e-14; at 1e-3 they reach 1e-11; below 1e-6 no digit is correct beyond a quarter of the period.
+rounded modulus. `scipy.special.ellipj` takes the parameter ``m = modulus**2``. Within a period, its errors are below
+1e-14 for complementary moduli above 0.1; at 1e-3 they reach 1e-11; below 1e-6 no digit of cn and dn is correct beyond
+half the period.
 
 SciPy has the elliptic integrals. With ``c`` the complementary modulus, write ``ellipkm1(c**2)`` for the complete
 integral K, ``ellipe((1 - c) * (1 + c))`` for E, and the forms of Carlson (`elliprf`, `elliprd`, `elliprj`; DLMF 19.25)
@@ -43,8 +44,8 @@ class Jacobi(NamedTuple):
 
 
 @described(
-    "``1e-15 * (|f| + |u df/du|)`` for complementary moduli from 1e-150 to 1; if ``abs(u)`` exceeds 1e15, no digit of "
-    "sn, cn and dn is correct",
+    "``1e-15 * (|f| + |u df/du|)`` for complementary moduli from 1e-150 to 1; if ``abs(u)`` exceeds 1e15, sn, cn and dn "
+    "can be wrong in every digit",
     cost="0.07 microseconds for each number",
 )
 def jacobi(u: ArrayLike, *, modulus: float | None = None, complementary_modulus: float | None = None) -> Jacobi:

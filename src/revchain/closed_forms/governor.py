@@ -36,12 +36,13 @@ _IN_WORDS = {
 
 
 class GovernorPoints(NamedTuple):
-    """A governor at one or more inclinations of its arms, from the downward vertical outwards.
+    """A governor at one or more inclinations of its arms, from the vertical outwards: downward, Hartnell's upward.
 
     `inclination`: of the arms, rad. `angular_speed`: of equilibrium, rad/s; NaN or infinite if there is none. `low_speed`,
     `high_speed`: between these friction holds the sleeve. `ball_radius`: distance of the balls from the axis, m.
-    `height`: from the balls up to where their arms meet the axis, m. `lift`: of the sleeve, from inclination 0, m.
-    `stable`: whether a higher speed lifts the sleeve farther. `period`: of small oscillations, s; NaN if they grow.
+    `height`: from the balls up (Hartnell's: down) to where their arms meet the axis, m. `lift`: of the sleeve, from
+    inclination 0, m. `stable`: whether the arms return when disturbed at constant speed. `period`: of small oscillations,
+    s; NaN if they grow.
     """
 
     inclination: FloatOrArray
@@ -67,7 +68,7 @@ class GovernorEffort(NamedTuple):
     power: float
 
 
-_STABLE = "stable: a higher speed lifts the sleeve farther"
+_STABLE = "stable: the arms return when disturbed at constant speed"
 
 
 class GovernorEquilibria(Result, Listed[GovernorPoints], row="point", title="{summary}", notes=(_STABLE,)):
@@ -81,7 +82,7 @@ class GovernorEquilibria(Result, Listed[GovernorPoints], row="point", title="{su
     inclination (°)  lift (m)  balls off axis (m)  stable  period (s)
              0.0000    0.0000              0.0000      no         nan
              53.130    1.1200              1.1200     yes      2.1991
-    stable: a higher speed lifts the sleeve farther
+    stable: the arms return when disturbed at constant speed
     """
 
     __slots__ = ()
@@ -95,13 +96,13 @@ class GovernorEquilibria(Result, Listed[GovernorPoints], row="point", title="{su
         "Distance of the balls from the axis, m, shape (E,).", heading="balls off axis", unit="m", digits=5
     )
     stable: Field[NDArray[np.bool_]] = Field(
-        "Whether a higher speed lifts the sleeve farther, shape (E,).", heading="stable"
+        "Whether the arms return when disturbed at constant speed, shape (E,).", heading="stable"
     )
     period: Field[Floats] = Field(
         "Period of small oscillations, s, shape (E,); NaN if they grow.", heading="period", unit="s", digits=5
     )
     height: Field[Floats] = Field(
-        "Distance from the balls up to where their arms meet the axis, m, shape (E,).", axes=(), unit="m"
+        "Distance from the balls up (Hartnell's: down) to where their arms meet the axis, m, shape (E,).", axes=(), unit="m"
     )
     low_speed: Field[Floats] = Field(
         "Lowest speed at which friction holds the sleeve there, rad/s, shape (E,).", axes=(), unit="rad/s"
@@ -155,8 +156,9 @@ class SleeveGovernor(Solved, row="point"):
     shaft_inertia: Moment of inertia of a shaft that turns freely, kg m^2; infinite: its speed is held
     lowest_inclination: Inclination at the lower stop, rad, or a text such as "25 deg"
     highest_inclination: Inclination at the upper stop
-    raises: If a number is out of its range or, but for `shaft_inertia`, not finite; if lower links do not reach the
-        sleeve, a sleeve or spring has nothing to be carried by, or only one stop is given.
+    raises: If a number is out of its range or, but for `shaft_inertia`, not finite; if both `lower_arm` and `sleeve_arm`
+        are given, lower links do not reach the sleeve, or the arms do not reach a stop; if a sleeve, spring or friction
+        has neither to act through; if only one stop is given.
     notes: The speeds follow from the energies: n^2 = 2 V'/J'. Accuracy, measured against the forces in the links on 10,000
         random governors: 1e-12 of the square of the speed.
 
@@ -224,7 +226,7 @@ class SleeveGovernor(Solved, row="point"):
         """Return speeds, places and periods at given inclinations.
 
         inclination: Inclinations of the arms, rad, or texts such as "30 deg", any shape
-        raises: If the links cannot reach an inclination.
+        raises: If an inclination is not within pi / 2, or the links cannot reach it.
 
         >>> porter = rc.SleeveGovernor(ball_mass=2.3, arm=0.33, lower_arm=0.33, sleeve_mass=9.5122, gravity=9.81)
         >>> round(float(porter.at("27 deg").angular_speed) * 30 / 3.141592653589793, 4)
@@ -244,7 +246,7 @@ class SleeveGovernor(Solved, row="point"):
 
         angular_speed: Speed of the shaft in rad/s, or a text such as "300 rpm"; not negative.
         returns: A sequence of `GovernorPoints`, whose `angular_speed` is the given one, with a table and a picture.
-        raises: If the speed is negative or not finite, or intervals cannot prove that there are no others.
+        raises: If the speed is negative or above 1e100, or intervals cannot prove that there are no others.
 
         >>> pendulum = rc.SleeveGovernor(ball_mass=1.0, arm=1.0, gravity=9.81)
         >>> [(round(float(at.inclination), 4), at.stable) for at in pendulum.equilibria(4.0)]
@@ -254,7 +256,7 @@ class SleeveGovernor(Solved, row="point"):
         speed = real(caller, "angular_speed", angular_speed)
         found, complete = self._found().equilibria(speed)
         if not complete:
-            raise ValueError(f"{caller}: equilibria are too close to be told apart at angular_speed {angular_speed}")
+            raise ValueError(f"{caller}: cannot prove that no equilibrium is missed at angular_speed {angular_speed}")
         columns = dict(zip(GovernorPoints._fields, found.reshape(-1, len(GovernorPoints._fields)).T, strict=True))
         given = {"angular_speed": speed, "stable": columns["stable"] > 0}
         return GovernorEquilibria._made(governor=self, **columns | given)

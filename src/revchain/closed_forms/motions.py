@@ -52,8 +52,9 @@ class BufferImpact(Solved):
 
     speed: Speed of both carriages towards the buffer at time 0, when the front one touches it
     raises: If a number is not positive and finite, or there are more than 100,000 blows.
-    notes: Accuracy, measured against integration, if no blow only grazes the buffer: positions to 1e-13 of speed times
-        time, speeds to 1e-13 of the speed and of acceleration times time, times to 1e-13 of the last time. Cost: 10
+    notes: Accuracy for up to 50 blows, measured against integration, if none only grazes the buffer: positions to 1e-13
+        of speed times time, speeds to 1e-13 of the speed and of acceleration times time, times to 1e-13 of the last time.
+        Errors grow with the number of blows: times of 270 are within 2e-12. Cost: 10
         microseconds, 1 more for each blow, and 0.05 for each state. Carriages of about equal mass give one or two
         blows; a rear carriage that is 10,000 times as heavy can give a thousand.
 
@@ -115,7 +116,7 @@ class GovernorMotion(Solved, row="motion", title="GovernorMotion: {self.regime}"
         numbers are so far apart, by a factor of 1e150 or more, that no digit of the motion would be correct.
     notes: Accuracy, measured against integration in quadruple precision: angles to 1e-13 of the greatest angle and of
         ``t`` times the greatest rate; rates to 1e-13 of the greatest rate and of ``t`` times the greatest
-        acceleration. After 1e13 periods no digit is correct. Close to a motion that never returns, the rounding of
+        acceleration. After 1e13 periods the phase is lost. Close to a motion that never returns, the rounding of
         the start to double limits the accuracy.
 
     >>> swing = rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5)

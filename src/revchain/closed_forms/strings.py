@@ -66,7 +66,7 @@ class TransverseModes(Result, row="mode", title="TransverseModes: {_many}"):
     )
     shape: Field[Floats] = Field(
         "Offsets of the first support, the weights and the last support, shape (n, n + 2). The largest size is 1; the "
-        "offset of the first weight is positive.",
+        "offset of the first weight is not negative.",
         axes=("point",),
     )
 

@@ -5,7 +5,7 @@
 
 For small inclinations the conical heights are the roots of a quadratic, computed without cancellation. Functions named
 ``..._shapes`` return all hanging steady shapes (relative equilibria) at any inclination. Lengths and heights are in one
-unit; only the ratio of weights matters. A plummet is a point mass on a massless thread. A *link* is a rigid body with a
+unit; of two weights only the ratio matters. A plummet is a point mass on a massless thread. A *link* is a rigid body with a
 `centroid`, the distance of its centre of gravity below its upper pin (positive), and a `radius_of_gyration` about the
 centre of gravity (not negative; 0 is a plummet). `height` is the conical height ``gravity / angular_speed**2`` of a
 speed. Source: Greenhill (1908), sections 2, 6 and 8.
@@ -130,7 +130,7 @@ def pendulum_length(centroid: ArrayLike, radius_of_gyration: ArrayLike) -> Float
     """Return the length of the simple pendulum with the period of a link.
 
     returns: ``centroid + radius_of_gyration**2 / centroid``. This is the distance of the centre of oscillation; a pin
-        there gives the same period.
+        there gives the same period, unless the link is a plummet.
 
     >>> float(rc.two_links.pendulum_length(2.0, 1.0))
     2.5
@@ -149,7 +149,9 @@ def share_at_centre_of_oscillation(centroid: ArrayLike, radius_of_gyration: Arra
 
 
 @closed_form(
-    _core.swung_link, "4 ulp for the data as given, also where `height` is close to ``l``", "section 6 (1), (2)"
+    _core.swung_link,
+    "4 ulp for the data as given (`condition`: 1e-13), also where `height` is close to ``l``",
+    "section 6 (1), (2)",
 )
 def swung_link(centroid: ArrayLike, radius_of_gyration: ArrayLike, height: ArrayLike) -> SwungLink:
     """Return the steady motion of a link below a pin on the axis (the compound conical pendulum).
@@ -234,8 +236,8 @@ def seconds_lost_per_day(deflection: ArrayLike, centroid: ArrayLike, radius_of_g
     """Return the time that a pendulum clock on a yielding support loses in a day.
 
     returns: Seconds lost per day by a clock that is right on a firm support.
-    notes: A relative error of the data changes the result by up to ``1 + sqrt(l / centroid)`` times as much if the
-        deflection nearly equals the pendulum length ``l``.
+    notes: A relative error of the data changes the result by up to ``3 + 2 sqrt(l / centroid)`` times as much, with
+        ``l`` the pendulum length: most where the deflection nearly equals ``l``.
 
     A seconds pendulum on a bracket that yields by a thousandth of a millimetre:
 
@@ -261,8 +263,9 @@ def two_plummets_shapes(
         one side, if `height` is below the first of `two_plummets`; one or three have them on opposite sides, if it is
         below the second.
     raises: If a length divided by `height` exceeds 1.1e102.
-    notes: A relative error of the data changes the tangents by up to ``x / (x - height)`` times as much, where `x` is
-        the conical height at which the shape leaves the vertical; where two shapes meet, by its square root.
+    notes: Near the vertical a relative error of the data changes the tangents by up to about ``2 x / (x - height)``
+        times as much, where `x` is the conical height at which the shape leaves the vertical. Where two shapes meet,
+        it changes them by its square root.
 
     >>> pair = dict(lower_weight=1, lower_thread=2, upper_weight=3, upper_thread=1)
     >>> for shape in rc.two_links.two_plummets_shapes(**pair, height=1 / 64):
@@ -374,8 +377,8 @@ def pin_of_silent_clapper(
     returns: The distance ``a2`` at which both swing, or whirl at any inclination, in one line as if clamped: ``h1 =
         (m + 1) l1 + m (a2 - l2)``. The conical height of that motion is the distance plus the `pendulum_length` of
         the clapper.
-    raises: If the pendulum length of the clapper is not less than that of the bell: the bell then rings wherever the
-        pin is.
+    raises: If the pendulum length of the clapper is not less than that of the bell: the bell then rings with any pin
+        below its support.
     notes: A relative error of the data changes the result by up to ``3 (l1 + l2) / (l2 - l1) + 6`` times as much,
         with l1 and l2 the pendulum lengths of clapper and bell.
 

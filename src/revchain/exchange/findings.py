@@ -13,7 +13,7 @@ _SOME = "some of these reasons; the others need a change of the model"
 
 WORDS = {
     "actuator": "motors that exert a force without a signal",
-    "armature": "inertia of rotors that is not of the carriage or of the uppermost hinge",
+    "armature": "inertia of rotors that is not of the carriage or, in a plane, of the uppermost hinge",
     "damping": "all dashpots",
     "equality": "constraints between joints or bodies",
     "fluid": "forces of the medium (density, viscosity)",
@@ -44,7 +44,7 @@ class ModelWarning(UserWarning):
     left_out : tuple of str
         One sentence for each part that `ignore` or `links` left out.
     remarks : tuple of str
-        One sentence for each part that was changed before the model was read, or has no effect.
+        Sentences on what was changed or guessed or has no effect, and the warnings of MuJoCo.
 
     Examples
     --------
@@ -110,7 +110,7 @@ class Findings:
         self.left_out.append(Sentence(place, what))
 
     def remark(self, place: tuple[str, int], what: str) -> None:
-        """Note what was changed, or has no effect."""
+        """Note what was changed or guessed, or has no effect."""
         self.remarks.append(Sentence(place, what))
 
     def stop(self) -> NoReturn:
@@ -134,7 +134,7 @@ class Findings:
 
 
 def listed_words(function: str, name: str, value: object) -> tuple[str, ...]:
-    """Words given as a tuple or list, or as one text with commas or, if it has none, with blanks."""
+    """Words given as a tuple, list or set, or as one text with commas or, if it has none, with blanks."""
     if isinstance(value, str):
         words = value.split("," if "," in value else None)
         return tuple(word.strip() for word in words if word.strip())

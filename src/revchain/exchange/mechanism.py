@@ -3,8 +3,8 @@
 
 The support turns about the vertical; each link has two hinges at its upper pin, one that inclines it in the turning plane
 and one that moves it out of it. A link of revchain has no moment of inertia about its own axis, so that only its direction
-counts, and a support on the axis neither drives the chain nor is driven by it. In steady motion all joints but that of
-the support are at rest. Springs and dashpots at a pin act on both of its hinges.
+counts. Without springs and dashpots at pins, a support on the axis neither drives the chain nor is driven by it. In steady
+motion all joints but that of the support are at rest. Springs and dashpots at a pin act on both of its hinges.
 """
 
 from __future__ import annotations
@@ -100,7 +100,9 @@ class Mechanism:
         return name
 
     def across(self, k: int, least: float) -> float:
-        """Moment of inertia of link k with that of a small ball, `least`; the radius comes back from it exactly.
+        """Moment of inertia of link k with that of a small ball, `least`.
+
+        The radius of gyration comes back from it exactly unless the moment is near `least` or below.
 
         The forces of steady motion depend on the moment across a link less that along it, which the ball does not change.
         """

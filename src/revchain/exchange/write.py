@@ -46,8 +46,9 @@ def to_mjcf(
     gravity : float, optional
         Acceleration of gravity, m/s^2; standard gravity if left out. Only for a system: a shape has its own.
     timestep : float, optional
-        Time step of the integrator, s. If left out: a hundredth of the fastest oscillation of a link, less with dashpots,
-        and for a shape at most a thousandth of a turn.
+        Time step of the integrator, s. If left out: a hundredth of the oscillation of the least mass on the shortest link
+        under the greatest tension, less with springs and dashpots, and for a shape at most a thousandth of a turn. Give it
+        for links with a short centroid, which may oscillate faster.
 
     Returns
     -------
@@ -69,9 +70,9 @@ def to_mjcf(
     -----
     A ``turntable`` turns about the vertical and carries the upper pin. Each link has two hinges there: ``inclination``, in
     the turning plane, and ``sideways``, out of it. In steady motion only the turntable and the wheels turn. A turntable
-    on the axis exerts no torque on the chain. One with an arm, or of a system with dashpots, has a moment of inertia large
-    enough to keep its speed to 12 digits, or to stand still. A link with a flywheel has a wheel with half of its mass,
-    which carries the same angular momentum.
+    on the axis exerts no torque on a chain without springs at pins. One with an arm, or of a system with dashpots, has a
+    moment of inertia large enough to keep its speed to 12 digits, or to stand still. A link with a flywheel has a wheel
+    with half of its mass, which carries the same angular momentum.
 
     A support on a spring, or a trolley, is a ``carriage`` on two slides, ``carriage_x`` and ``carriage_y``, with the
     support's stiffness and damping. Springs and dashpots at a pin are the stiffness and damping of both its hinges. The
@@ -113,7 +114,7 @@ def to_urdf(
     Parameters
     ----------
     system : Chain, Rig or SteadyShape
-        With all joints at 0 a system hangs straight; a shape has its inclinations.
+        With all joints at 0 a system hangs straight, its inverted links upright; a shape has its inclinations.
     path : path-like, optional
         Where to write the text.
     gravity : float, optional

@@ -207,7 +207,8 @@ def branches(
     For rigs (on springs, on an arm, with flywheels, in fluids) the proof needs all links in tension at every speed up
     to the given one. Below the first critical speed such a rig has exactly one hanging shape if its support is off the
     axis, and only the straight one if it is on the axis. If stiffness times conical height is less than the weight that
-    moves, a spring at the support cannot balance it, and nothing is proved; ``remark`` gives these heights.
+    moves, the centrifugal force grows faster than the pull of the spring at the support, and nothing is proved;
+    ``remark`` gives these heights.
 
     A link becomes horizontal only at infinite speed, where a flywheel takes its tension, or where the stretch of a spring
     at the support becomes infinite. So a branch never leaves its posture. All shapes in any posture are therefore on the

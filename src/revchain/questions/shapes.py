@@ -72,7 +72,8 @@ def steady_shapes(
         Held chains: whether to prove error bounds and completeness; else the bounds are estimates.
     threads : int, optional
         Number of threads for chains and rigs; 0 for all processors. Results are bitwise equal for any number. Threads
-        share the refinement of the shapes, not the search, which is about half of the work.
+        share the refinement of the shapes, not the search, which is about half of the work. They share nothing if
+        `hanging_only` is False or a link has several inclinations under its load.
     mode : int, optional
         Chains, rigs and cords: search only the branch of this mode, see `steady_shape`. Then a property may be given
         instead of the speed, and the shapes have different speeds.

@@ -133,7 +133,7 @@ def in_radians(sheet: Sheet) -> Sheet:
 
 
 def shortfall(found: Any) -> str:
-    """Return a sentence about what was not found or not proved; empty if everything was."""
+    """Return a sentence about what was not found, or not proved where a proof is required; empty if nothing."""
     missing = getattr(found, "missing", ())
     if missing:
         return f"no shape was found with {', '.join(map(str, missing))} half wave{'s' * (list(missing) != [1])}"

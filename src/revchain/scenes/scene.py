@@ -86,7 +86,7 @@ class Scene(Tables, frozen=True, weakref=True):
 
     Notes
     -----
-    The attributes are the tables of the file (`revchain schema` describes each key). Plain numbers are in SI units;
+    The attributes are the keys of the file (`revchain schema` describes each). Plain numbers are in SI units;
     text such as ``"39.1396 inch"`` is converted by pint. The methods `modes`, `steady_shapes`, `response`, `swing`,
     `branches`, `campbell` and `drag_shape` call the function of that name with the system, the gravity and the
     arguments of the scene; `equilibria` calls the method of a `SleeveGovernor`, or returns the governor if no speed is
@@ -149,7 +149,7 @@ class Scene(Tables, frozen=True, weakref=True):
         return scene
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the scene as plain data, without keys at their default values.
+        """Return the scene as plain data; keys at their default values may be left out.
 
         Returns
         -------
@@ -188,12 +188,13 @@ class Scene(Tables, frozen=True, weakref=True):
         return self._built()[1]
 
     def system(self) -> System:
-        """Return the system of the scene in SI units, by mass, or by weight if the scene has a weight.
+        """Return the system of the scene in SI units, by mass, or by weight if the scene has a weight and gravity.
 
         Returns
         -------
         Chain, Rig, Cord, Held or SleeveGovernor
-            The system. A chain is a rig if the scene has a support, flywheels, a fluid, pins, linear drag or inverted links.
+            The system. A chain is a rig if the scene has a support, flywheels, displaced fluid, pins, linear drag or
+            inverted links.
 
         Raises
         ------
@@ -292,7 +293,7 @@ class Scene(Tables, frozen=True, weakref=True):
         Raises
         ------
         ValueError
-            If the path has another ending.
+            If the path ends neither in ``.html`` nor in ``.htm``.
         SceneError
             If a function refuses the system or its arguments.
         ImportError
@@ -303,7 +304,7 @@ class Scene(Tables, frozen=True, weakref=True):
 
         Notes
         -----
-        Cost: that of the answers, and about half a second for each picture.
+        Cost: that of the answers, about 0.1 s for each picture (0.4 s for many branches), and 0.3 s to load matplotlib.
 
         Examples
         --------

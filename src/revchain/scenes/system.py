@@ -38,8 +38,8 @@ def option(key: str) -> str:
 class Numbers:
     """Numbers of one table: text with units converted, ranges checked, errors noted with the key path.
 
-    A wrong number is NaN; `done` raises one error for all of them. If the whole scene is given by mass, masses stay
-    masses, else they are multiplied by gravity.
+    A wrong number is NaN; `done` raises one error for all of them. If the scene has no weight or no gravity,
+    masses stay masses, else they are multiplied by gravity.
     """
 
     def __init__(
@@ -141,7 +141,9 @@ class Numbers:
         return self.value(key, given, key, sign)
 
     def read(self, table: Table | UnsetType, kind: str = "") -> Given:
-        """All numbers given in the table, by key. Weights become masses if `by_mass`, else masses become weights.
+        """The numbers of the table that may have a unit, by key.
+
+        Weights become masses if `by_mass`, else masses become weights.
 
         `kind` comes before the key in the name of the quantity, as in "pin_stiffness".
         """

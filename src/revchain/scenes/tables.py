@@ -109,7 +109,8 @@ class Support(Table, frozen=True):
 class Link(Table, frozen=True):
     """One link, or several equal ones. A link of mass 0 is a massless thread.
 
-    A link with `clamped` is part of the link above; `standing`, `flywheel`, `displaced` and `pin` belong to that link.
+    A link with `clamped` is part of the link above; `standing`, `flywheel`, `displaced`,
+    `pin`, `drag` and `air_drag` belong to that link.
     """
 
     length: Annotated[Positive, says("Distance between its pins (m).")]
@@ -252,7 +253,7 @@ Pair = tuple[NotNegative, NotNegative]
 
 
 class Spread(Table, frozen=True, rename={"first": "from", "last": "to"}):
-    """Numbers from a first to a last one, both included."""
+    """Numbers from a first to a last one, both included; with one step only the first."""
 
     last: Annotated[AnySign, says("Last number.")]
     first: Annotated[AnySign, says("First number.")] = 0.0
@@ -433,7 +434,7 @@ _SIGNS |= {kind | UnsetType: sign for kind, sign in _SIGNS.items()} | {OneOrMore
 
 @cache
 def number_fields(kind: type[Struct]) -> list[tuple[str, str, bool]]:
-    """Name of each key that is a number, with or without a unit, or several; its sign; and whether it is required."""
+    """Name of each key whose number or numbers may have a unit; the sign; and whether the key is required."""
     types = [(field, get_args(field.type)[0]) for field in fields_of(kind)]
     return [(field.name, _SIGNS[of], field.required) for field, of in types if of in _SIGNS]
 

@@ -40,7 +40,9 @@ class Vary(Table, frozen=True, rename={"first": "from", "last": "to"}):
 
     first: Annotated[NumberOrText | UnsetType, says("First value of a grid.")] = UNSET
     last: Annotated[NumberOrText | UnsetType, says("Last value of a grid.")] = UNSET
-    steps: Annotated[Samples | UnsetType, says("Number of values of a grid, both ends included.")] = UNSET
+    steps: Annotated[
+        Samples | UnsetType, says("Number of values of a grid, both ends included; 1 gives only the first.")
+    ] = UNSET
     log: Annotated[bool, says("Whether the values have equal ratios instead of equal differences.")] = False
     values: Annotated[Listed | UnsetType, says("Values of a grid, instead of from, to and steps.")] = UNSET
     uniform: Annotated[
@@ -87,7 +89,7 @@ class Axis:
         return np.unique(self.values).tolist()  # type: ignore[no-any-return]
 
     def drawn(self, seed: int, count: int) -> Floats:
-        """Random numbers of the first `count` points; each depends only on seed, path and the number of its point."""
+        """Random numbers of the first `count` points; each depends only on law, seed, path and number of its point."""
         indexed = re.sub(r"\.(?=\[)", "", ".".join(f"[{step}]" if isinstance(step, int) else step for step in self.path))
         key = zlib.crc32(indexed.encode()), 0
         stream = np.random.Generator(np.random.SFC64(np.random.SeedSequence(seed, spawn_key=key)))
@@ -97,7 +99,10 @@ class Axis:
 
 
 def with_value(data: Any, path: Path, value: Any) -> Any:
-    """A copy of `data` with the value at the path, sharing other tables; a ValueError if there is no such path."""
+    """A copy of `data` with the value at the path, sharing other tables.
+
+    Tables that are missing are made. An item of a list that is missing is a ValueError.
+    """
     if not path:
         return value
     step, rest = path[0], path[1:]

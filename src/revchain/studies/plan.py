@@ -244,7 +244,7 @@ def asked_of(scene: Scene, wanted: Sequence[str] | UnsetType, numbers: Numbers) 
 def outputs_of(
     scene: Scene, largest: Scene, find: tuple[str, ...], max_shapes: int, bounds: bool, varied: bool
 ) -> Labels:
-    """The outputs of a study; `largest` is the scene of the point with the most modes.
+    """The outputs of a study; `largest` is the scene with the whole numbers and words that give the most links.
 
     `varied` says that a varied number may give the top pin inertia, a spring, or neither.
     """

@@ -26,7 +26,7 @@ class Scatter(Table, frozen=True):
 
     worst: Annotated[
         bool,
-        says("Whether to find the proved lowest and highest speeds of modes over the intervals of uniform random numbers."),
+        says("Whether to find proved lowest and highest speeds of modes over intervals of uniform or log_uniform numbers."),
     ] = False
 
 

@@ -44,7 +44,7 @@ class Study(Table, frozen=True):
     Attributes
     ----------
     scene : Scene or str
-        The scene, or the name of its file, in the folder of the study.
+        The scene, or the path of its file, from the folder of the study.
     vary : dict of str to Vary
         Values by path into the scene, such as ``links[load].mass`` or ``links[0].mass``, with the name of a link or its
         index in the order of the file. Grids are combined, each value with each. Random numbers are drawn for each point.
@@ -59,10 +59,11 @@ class Study(Table, frozen=True):
     max_shapes : int
         Largest number of stored steady shapes, or equilibria of a governor, of each point.
     scatter : Scatter, optional
-        With ``worst=True``: also find the proved lowest and highest speeds over the intervals of uniform random numbers.
+        With ``worst=True``: also find the proved lowest and highest speeds over the intervals of random numbers, uniform or
+        log_uniform.
     error_bounds : bool, optional
-        Whether to store error bounds. If left out, they are stored, except for plain chains of up to 100 links: those are
-        computed in batches (`revchain.conical_heights`, accurate to 5 ulp) without bounds.
+        Whether to store error bounds. If left out, they are stored, except where chains are computed in batches, to
+        a few ulp without bounds (see `sweep`).
     title, description : str
         Texts for readers.
     schema_version : int
@@ -82,7 +83,7 @@ class Study(Table, frozen=True):
            [3.3902, 2.768 , 2.3972]])
     """
 
-    scene: Annotated[Scene | str, says("The scene, or the name of its file in the folder of this one.")]
+    scene: Annotated[Scene | str, says("The scene, or the path of its file, from the folder of this one.")]
     vary: Annotated[
         dict[str, Vary],
         Meta(description="Values by path into the scene, such as links[load].mass or links[0].mass.", min_length=1),
@@ -150,7 +151,7 @@ class Study(Table, frozen=True):
         return study
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the study as plain data, without keys at their default values.
+        """Return the study as plain data; keys at their default values may be left out.
 
         Returns
         -------
@@ -281,7 +282,7 @@ def load_study(path: str | os.PathLike[str]) -> Study:
     Parameters
     ----------
     path : path-like
-        Path of the file. A scene that it gives by name must be a file in the same folder.
+        Path of the file. A path of a scene in it counts from its folder.
 
     Returns
     -------

@@ -75,8 +75,9 @@ def sweep(
     xarray.Dataset
         The results by name, with SI units in ``attrs["units"]``. There is one dimension for each grid, one named
         ``sample`` for random numbers, and one each for the modes, shapes, speeds, orders or equilibria found. NaN (0 for
-        whole numbers) stands for a missing result. The variable ``status`` is 1 for success, 2 if a result is not proved,
-        3 for a refused point. The numbers are bitwise equal for any executor, number of workers and chunk.
+        whole numbers, False for verdicts) stands for a missing result. The variable ``status`` is 1 for success, 2 if a
+        result is not proved, 3 for a refused point. The numbers are bitwise equal for any executor, number of
+        workers and chunk.
 
     Raises
     ------
@@ -86,7 +87,7 @@ def sweep(
         If `out` cannot be written, another run is writing it, or its partial folder has points of another study (the error
         is also a ValueError). Finished chunks stay.
     ValueError
-        If `out` has another extension, or a number is below 1.
+        If `out` has another extension or cannot hold all points, or `workers` or `chunk` is below 1.
     TypeError
         If `executor` is not an executor, or `progress` is not callable.
     ImportError
@@ -95,13 +96,14 @@ def sweep(
     Warns
     -----
     UserWarning
-        If a stored chunk cannot be read; its points are computed again.
+        If a stored chunk cannot be read; its points are computed again. If the partial folder holds other files; it stays.
 
     Notes
     -----
     Chains of up to 100 links whose numbers are proportional to the varied ones go to `revchain.conical_heights`
-    together. All other points are solved by the methods of `Scene`. A point that its scene refuses has no numbers;
-    `Study.scene_at` raises the error with the reason. Cost: 0.1 microseconds a point of two links in a batch, 0.2 to 1
+    together, if only modes are asked for, without bounds and without a small ``rtol``. All other points are solved by the
+    methods of `Scene`. A refused point has no numbers; `Study.scene_at`, or the question asked of its scene, raises the
+    error with the reason. Cost: 0.1 microseconds a point of two links in a batch, 0.2 to 1
     ms otherwise, if the question is not a long one.
 
     Examples
