@@ -38,7 +38,6 @@ STYLE = {
     "scipy eigh_tridiagonal": ("#B8860B", "o"),
     "scipy eigsh": ("#B8860B", "^"),
     "scipy eigsh, factored inverse": ("#B8860B", "s"),
-    "scipy roots_laguerre": ("#B8860B", "D"),
 }
 
 

@@ -7,7 +7,7 @@ import sys
 import time
 
 import numpy as np
-from scipy import linalg, sparse, special
+from scipy import linalg, sparse
 from scipy.sparse import linalg as sparse_linalg
 
 try:
@@ -81,12 +81,6 @@ def eigsh_factored(weight, rods, count):
     return np.sort(sparse_linalg.eigsh(inverse, count, v0=start, return_eigenvectors=False))[::-1]
 
 
-def roots_laguerre(weight, rods, count):
-    """Equal plummets: 1/lambda are the zeros of the Laguerre polynomial."""
-    with np.errstate(all="ignore"):
-        return heights_of(special.roots_laguerre(len(weight))[0], count)
-
-
 def revchain_modes(weight, rods, count):
     centroid, pendulum = (0.5, 2 / 3) if rods else (1.0, 1.0)
     chain = revchain.Chain(weight=weight, length=1.0, centroid=centroid, pendulum_length=pendulum)
@@ -98,7 +92,6 @@ METHODS = {
     "scipy eigh_tridiagonal": (eigh_tridiagonal, "scipy", "ACDE", 1_000_000, "any"),
     "scipy eigsh": (eigsh, "scipy", "ABCDER", 1_000_000, "few"),
     "scipy eigsh, factored inverse": (eigsh_factored, "scipy", "ABCDER", 1_000_000, "few"),
-    "scipy roots_laguerre": (roots_laguerre, "scipy", "A", 1000, "all"),
 }
 MISSING = []
 if revchain is None:

@@ -142,6 +142,7 @@ function numbersOf(part, kind) {
     const setCount = (x) => {
         const others = linkCount(state) - part[PART.count];
         part[PART.count] = Math.max(1, Math.min(Math.round(x), MOST_LINKS - others));
+        $('add').disabled = linkCount(state) >= MOST_LINKS;
         changed();
     };
     const setScaled = (x) => {

@@ -58,10 +58,10 @@ struct BatchOptions {
 /// solves the other chains one by one: those for which the lanes prove nothing, those with massless
 /// links or centroids at or above the pin, and all chains in other scalars. Accuracy, measured up
 /// to N = 100 (tests/cpp/batch.cpp and larger samples): 4.5 ulp for plummets and rods, 6 for other
-/// links. Counts verify heights to 16 + N/4 ulp. Results are
-/// bitwise the same for any number of threads and any order of the chains; another `count` or
-/// processor may change last digits. Cost: 0.4 microseconds for all modes of ten links. Memory: the
-/// result, and a few numbers for each link of 16 chains a thread.
+/// links, 14 for links with their mass in one point between the pins. Counts verify heights to 16 +
+/// N/4 ulp. Results are bitwise the same for any number of threads and any order of the chains;
+/// another `count` or processor may change last digits. Cost: 0.4 microseconds for all modes of ten
+/// links. Memory: the result, and a few numbers for each link of 16 chains a thread.
 /// Throws InvalidArgument for a number that `Chain` refuses, naming chain, link and value. Also
 /// throws for chains without links, a negative number of chains, a count below 1 or beyond the
 /// modes of some chain, a negative number of threads, and a chain whose heights cannot be proved to

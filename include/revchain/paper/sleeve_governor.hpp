@@ -84,9 +84,11 @@ struct SleeveGovernor::Motion {
     }
     static double start(const GovernorData& d) { return of<double>(d, 0, 1, 0).sleeve.value; }
     static bool reaches(const GovernorData& d, double sine) {
-        const double joint = d.joint > 0 ? d.joint : d.arm;
-        return d.lower_arm == 0 ||
-               std::abs(d.pivot_offset - d.sleeve_offset + joint * sine) < d.lower_arm;
+        return d.lower_arm == 0 || std::abs(across(d, sine)) < d.lower_arm;
+    }
+    /// Distance of the links' joint beyond the sleeve's pivot, which increases with the sine.
+    static double across(const GovernorData& d, double sine) {
+        return d.pivot_offset - d.sleeve_offset + (d.joint > 0 ? d.joint : d.arm) * sine;
     }
 };
 
@@ -201,7 +203,9 @@ inline std::vector<GovernorPoint> SleeveGovernor::equilibria(double speed, bool*
             return;
         }
         const bool reaches_low = Motion::reaches(d, low), reaches_high = Motion::reaches(d, high);
-        if (!reaches_low && !reaches_high && depth > 4) return;
+        if (!reaches_low && !reaches_high && depth > 4 &&
+            (Motion::across(d, low) > 0) == (Motion::across(d, high) > 0))
+            return;  // too far on one side
         const double middle = low + (high - low) / 2;
         const double width = high - low;
         if (depth > 48 || (depth > 30 && !(Motion::reaches(d, low - 2 * width) &&

@@ -20,6 +20,7 @@ Vector<pencil::Complex> deflections(Vector<pencil::Complex> offsets) {
 }
 
 /// A rig's motion relative to its support: loads, start, and the motions q_j exp(s_j t).
+template <int = 0>  // compiled where it is used
 class DrivenMotions {
    public:
     using C = pencil::ComplexWord;

@@ -20,6 +20,7 @@ namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
 /// Does what `transient` says.
+template <int = 0>  // compiled where it is used
 class TransientMotion {
    public:
     using C = pencil::ComplexWord;
@@ -368,7 +369,7 @@ class TransientMotion {
     bool support_moves_;
     Rig rig_;
     std::vector<MotionPiece> pieces_;
-    DrivenMotions motions_;
+    DrivenMotions<> motions_;
     S pace_;
     double length_, weight_;
     std::vector<ScaledPiece> scaled_;
@@ -394,7 +395,7 @@ Transient transient(const Rig& rig, const TransientOptions& options) {
         detail::throw_invalid("transient",
                               "a rig moves in a fluid at rest, not in one that turns; links",
                               rig.size());
-    return detail::TransientMotion(rig, options).found();
+    return detail::TransientMotion<>(rig, options).found();
 }
 
 }  // namespace revchain

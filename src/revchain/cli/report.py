@@ -118,7 +118,7 @@ class Report:
                 if part is not None:
                     console.print(part)
         numbers: Any = self.sheet.columns[0].values if self.asked and self.sheet.good else []
-        if len(numbers) and self.asked > (there := numbers[-1] - numbers[0] + 1):
+        if len(numbers) and self.asked > (there := max(numbers) - min(numbers) + 1):
             after = f" from number {numbers[0]} on" if numbers[0] > 1 else ""
             only = f"there {'is' if there == 1 else 'are'} only {there}{after}"
             console.print(Text(f"{self.asked} modes are asked for: {only}", style="yellow"))

@@ -261,6 +261,7 @@ class Model(Compiled):
                 self._obstacle(
                     "joint", j, "has a spring that is not at rest (springref)", "set springref to 0", "stiffness"
                 )
+                stiffness = 0.0
         rotors = [self._armature(j) for j in joints]
         if min(rotors) != max(rotors):
             self._obstacle("body", part.body, "has slides of different armature", "give both the same", "armature")

@@ -274,7 +274,8 @@ class Text:
                     else:
                         limit.attrib.update(lower="-1e9", upper="1e9")
                         joint.append(limit)
-                    what = f"{name} has limits of equal ends, {low:g}: taken as without limits"
+                    ends = f"equal ends, {low:g}" if low == high else f"a lower end {low:g} above the upper one, {high:g}"
+                    what = f"{name} has limits of {ends}: taken as without limits"
                     self.findings.remark(self.place[joint], what)
         if joint.get("type") == "ball":
             joint.set("type", "spherical")

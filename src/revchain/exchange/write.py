@@ -210,7 +210,7 @@ def _mujoco(made: Mechanism, step: float) -> Xml.Element:
     _add(_add(root, "default"), "geom", contype=0, conaffinity=0, rgba=(0.12, 0.47, 0.71, 1))
     world = _add(root, "worldbody")
     _add(world, "light", directional="true", pos=(0, 0, size), dir=(0.3, 0.5, -1))
-    at = _body(world, "turntable", (0, 0, 0), LEAST, (0, 0, 0), (made.turning,) * 3)
+    at = _body(world, "turntable", (0, 0, 0), LEAST, (0, 0, 0), (max(made.turning, LEAST),) * 3)
     _joint(at, "turn", (0, 0, 1))
     pin: Any = (made.radius, 0, 0)
     if made.radius:
@@ -277,7 +277,7 @@ def _robot(made: Mechanism, angle: Any) -> Xml.Element:
     root = Xml.Element("robot", name="revchain")
     _add(root, "link", name="world")
     _turning(root, "turn", ("world", "turntable"), (0, 0, 0), 0.0, (0, 0, 1))
-    _part(root, "turntable", LEAST_OF_URDF, 0.0, (made.turning,) * 3)
+    _part(root, "turntable", LEAST_OF_URDF, 0.0, (max(made.turning, LEAST_OF_URDF),) * 3)
     parent, pin = "turntable", (made.radius, 0.0, 0.0)
     for k in reversed(range(made.size)):
         name, between, across = made.names[k], made.part(k, "pin"), made.across(k, LEAST_OF_URDF)

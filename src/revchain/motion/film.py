@@ -173,6 +173,7 @@ class Film:
             shows_pins=self.shows_pins and has_all_pins,
             names=self.names if has_all_pins else (),
             stout=self.stout[pin[:-1]],
+            rings=self.rings[pin[:-1]],
             frames_per_second=(rows.size - 1) / (self.frames - 1) * self.frames_per_second,
         )
 

@@ -289,7 +289,7 @@ def _(found: Swing, choices: Choices) -> Film:
     )
     frames = choices.frames(seconds)
     time_scale = choices.time_scale or (last - first) / seconds
-    time = first + np.arange(frames) / choices.frames_per_second * time_scale
+    time = np.minimum(first + np.arange(frames) / choices.frames_per_second * time_scale, last)
     offset = at(time)
     most, deep = float(np.abs(offset).max()), float(np.ptp(height))
     scale = 1.0 if 0.1 * deep <= most <= 0.35 * deep or not most else _reach_of_small(height, 1) / most

@@ -297,8 +297,8 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         Returns
         -------
         tuple of SteadyShape
-            The shapes in the order of the arc. At the speed of a fold, within rounding, it is the one shape of the fold.
-            The tuple is empty if the speed is outside the range of the branch. At the speed at which the branch leaves the
+            The shapes in the order of the arc. Within 1e-9 of the speed of a fold those next to it may be missing; the
+            shape of the fold is there, within rounding, if the branch does not pass this speed elsewhere. The tuple is empty if the speed is outside the range of the branch. At the speed at which the branch leaves the
             vertical it is empty or, by rounding, has a nearly straight shape.
 
         Raises

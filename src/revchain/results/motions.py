@@ -199,7 +199,9 @@ class Response(Result, Moving):
         return Column("error_bound", self._error.reshape(-1), "error bound")
 
     def _heading(self) -> str:
-        turns = self.system.has_momentum  # to and fro is then another motion
+        # With these parts the motion to and fro is another one.
+        turning = getattr(self.system, "displaced", None) is not None and self.system.fluid == "turning"
+        turns = getattr(self.system, "flywheels", None) is not None or turning
         if self.force is not None:
             unit = " N" if self.system.by_mass else ""
             return f"support pushed {'round' if turns else 'to and fro'} with {self.force:g}{unit}"

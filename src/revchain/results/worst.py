@@ -242,7 +242,7 @@ def _refuse_wide(caller: str, name: str, data: Any, width: Any, of: str = "") ->
     if wrong.any():
         k = int(np.flatnonzero(np.atleast_1d(wrong))[0])
         link = f" of links[{k}]" if np.ndim(data) else ""
-        size = float(np.broadcast_to(width, np.shape(data)).flat[k])
+        size = float(np.broadcast_to(width, np.shape(np.atleast_1d(data))).flat[k])
         raise ValueError(
             f"{caller}: the half-width of {name}{link} must be less than its value {float(np.atleast_1d(data)[k]):g}, "
             f"got {size:g}"
@@ -311,6 +311,11 @@ def _worst_of_cord(caller: str, modes: Modes, widths: dict[str, Floats], data: d
         raise ValueError(f"{caller}: worst has no proof for a cord with {part}; leave worst out, or cut it into links")
     half = {name: float(np.max(widths.get(name, 0.0))) for name in data}
     ends = {name: (float(x) - half[name], float(x) + half[name]) for name, x in data.items() if name != "masses"}
+    if held and not system.weightless:
+        heaviest = ends["mass"][1] * (modes.gravity if cord.by_mass else 1.0)
+        if not ends["tension"][0] > heaviest:
+            what = f"the least tension within the half-widths must exceed the greatest weight {heaviest:.6g}"
+            raise ValueError(f"{caller}: {what}, or the lower part is slack, got {ends['tension'][0]:.6g}")
     rows = _held_cord if held else _hung_cord
     found = rows(system, modes, ends)
 
