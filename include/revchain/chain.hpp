@@ -25,7 +25,7 @@
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// Powers of two that bring the total weight and the largest length to the order of 1. Scaling by
-/// them is exact and prevents overflow in any units.
+/// them prevents overflow in any units. It is exact, but for weights too far apart for one unit.
 struct ChainUnits {
     int weight_exponent = 0;
     int length_exponent = 0;
@@ -35,10 +35,11 @@ struct ChainUnits {
 /// is the free end, pin `size()` the support. The constructor checks it; a chain is immutable.
 ///
 /// Throws InvalidArgument, naming the link (from 0, lowest first), for no links, numbers not
-/// finite, lengths <= 0, negative weights, a massless lowest link, and weights whose sum overflows.
-/// Also throws for a link that would stand, not hang (W h + a S <= 0, S the weight below it), and
-/// for lengths, centroids or radii of gyration too far apart for T (2^(max_exponent/4): 1e77 in
-/// double). Cost O(N) once, and the memory of the stored numbers.
+/// finite, lengths <= 0, negative weights or gyration ratios, a massless lowest link, and weights
+/// or lengths whose sum overflows. Also throws for a link that would stand, not hang (W h + a S <=
+/// 0, S the weight below it), for lengths or centroids too far apart for T (2^(max_exponent/4):
+/// 1e77 in double), and for a radius of gyration as far from its link's length. Cost O(N) once, and
+/// the memory of the stored numbers.
 template <Real T>
 class Chain {
    public:
@@ -93,9 +94,9 @@ class Chain {
     /// The number of modes, which have positive heights: N, less 1 for each massless coordinate.
     Index mode_count() const noexcept { return mode_count_; }
     T total_weight() const { return total_weight_; }
-    /// Weight below link m, 0 <= m <= size(), as `Wide<T>`. Its error is at most that of 14
-    /// operations of a double word, and of one operation if all weights are one number. Cost: O(1)
-    /// if m is a multiple of `segment_size`, else O(segment_size).
+    /// Weight below link m, 0 <= m <= size(), as `Wide<T>`. If that is a double word, its error is
+    /// at most that of 14 operations, and of one operation if one weight is stored for all.
+    /// Cost: O(1) if m is a multiple of `segment_size`, else O(segment_size).
     [[nodiscard]] Wide<T> weight_below(Index m) const;
     /// Weights below links 0, `segment_size`, 2 `segment_size` ... and of all; empty for one
     /// weight.
@@ -144,7 +145,7 @@ class Chain {
     void check_each_link() const;
     void check_that_links_hang(const detail::Summary<T>& centroids) const;
     Index inertialess_coordinates() const;
-    /// The number of links that a check reads: one if all links are equal.
+    /// The number of links that a check reads: one if one number is stored for all in each column.
     Index distinct_links() const {
         const bool uniform = weight_.is_scalar() && length_.is_scalar() && centroid_.is_scalar() &&
                              gyration_ratio_.is_scalar();

@@ -13,8 +13,9 @@
 ///     const auto s = revchain::swung_link(bar, 0.4);          // conical height 0.4
 ///     s.inclination;                                          // 0.927328 rad
 ///
-/// Greenhill (1908) §6. Lengths in any unit, angles in rad. Functions throw InvalidArgument for a
-/// centroid that is not positive, a negative radius of gyration, and numbers that are not finite.
+/// Greenhill (1908) §6. Lengths in any unit, angles in rad. `swung_link` throws InvalidArgument
+/// for a centroid that is not positive, a negative radius of gyration, and numbers that are not
+/// finite.
 namespace revchain::inline REVCHAIN_BUILD {
 
 template <Real T>

@@ -53,7 +53,8 @@ inline std::string_view to_string(DragStatus status) {
 }
 
 /// A rigid figure that turns about the vertical through air at rest. Coordinates are in the turning
-/// frame: x outward through the support, y in the sense of the motion, z up from the support.
+/// frame: x outward through the support (through a spring's rest position, if it has one), y in the
+/// sense of the motion, z up from the support.
 struct DragShape {
     Table<double> position;      ///< (N + 1, 3) of the pins, free end first, support last
     Vector<double> inclination;  ///< (N) of each link to the downward vertical, 0 to pi, rad
@@ -83,8 +84,9 @@ struct DragShape {
 /// 0 to 1. Unknowns are the directions of the links. Newton's method has the exact derivative,
 /// eliminated link by link in 2 x 2 blocks, O(N); the last steps balance the forces in two words.
 /// Drag is integrated along each link by Gauss's rule on parts that shrink towards the slowest
-/// point. Folds on the way are followed round; after 3000 steps, or where the way returns to its
-/// beginning, the status is `fold`. It is not proved that there is no other shape. `error_estimate`
+/// point. Folds on the way are followed round. If the way then returns to its beginning, takes 3000
+/// steps or cannot be continued, the status is `fold` and the shape that at the first fold. Without
+/// a fold it is `stalled`. It is not proved that there is no other shape. `error_estimate`
 /// is the change by a rule of more points, and rounding. Accuracy measured
 /// (tests/python/test_drag.py): one link within 2e-15 rad of 40 digits; of 10,000 random chains 99
 /// % within 1e-14 rad, all within 3e-13 rad, by a step of Newton's method in other coordinates. A
@@ -94,8 +96,8 @@ struct DragShape {
 /// finite::balance. Cost: O(N) for each step of the continuation (`DragShape::steps`). Throws
 /// InvalidArgument for a speed of 0, a support on the axis, a fluid that turns, springs at pins,
 /// linear drag (`Rigging::drag`), a dashpot at the support, a trolley that rolls freely, lists of
-/// another length, negative numbers; with `half_waves` also if there is no such shape, and as
-/// `steady_shapes`.
+/// another length, negative numbers, weights more than 1e123 apart; with `half_waves` also if there
+/// is no such shape, and as `steady_shapes`.
 REVCHAIN_DECLARE
 [[nodiscard]] DragShape drag_shape(const Rig& rig, const Drag& drag,
                                    const DragShapeOptions& options);

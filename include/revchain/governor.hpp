@@ -31,7 +31,7 @@ struct Governor {
 enum class GovernorRegime {
     rest,         ///< an equilibrium, also the relative equilibrium at cos theta = lambda / l
     aside,        ///< between two angles on one side: dn
-    asymptotic,   ///< towards an equilibrium that is never reached: sech, sinh
+    asymptotic,   ///< towards an equilibrium that is never reached: sech, sinh, exp
     through,      ///< to and fro through the lowest point (highest if gravity is negative): cn
     revolutions,  ///< round and round: tn
 };
@@ -51,10 +51,10 @@ struct GovernorState {
 ///
 /// Method: with tau = tan(theta/2), 4 tau'^2 = e + 2 b tau^2 + f tau^4, where e and f are the
 /// squares of theta' at the bottom and at the top. kappa and kappa' follow from e, f and b without
-/// a difference, also near the separatrices. Accuracy: 1e-14 (|theta| + |t theta'|), and as much of
-/// theta', unless e or f is lost in rounding: the start gives them to 1e-16 (theta'^2 + n^2 +
-/// |g/l|). Pendulum lengths near the conical height are resolved to their last digit. Cost: 0.4
-/// microseconds to construct, 60 ns a time.
+/// a difference, also near the separatrices. Accuracy: 1e-13 of the greatest |theta| and of t times
+/// the greatest |theta'|; theta' likewise. It is less if e or f is lost in rounding: the start
+/// gives them to 1e-16 (theta'^2 + n^2 + |g/l|). Pendulum lengths near the conical height are
+/// resolved to their last digit. Cost: 0.4 microseconds to construct, 60 ns a time.
 class GovernorMotion {
    public:
     /// Throws InvalidArgument for numbers that are not finite, a pendulum length that is not
@@ -67,7 +67,8 @@ class GovernorMotion {
     /// The range of angles, whole turns included; -infinity and infinity for revolutions.
     double least_angle() const noexcept { return least_; }
     double greatest_angle() const noexcept { return greatest_; }
-    /// theta'^2 at the bottom and at the top; negative if the motion cannot reach that point.
+    /// theta'^2 that the energy gives at the bottom and at the top; negative if it is too small for
+    /// that point.
     double energy_at_bottom() const noexcept { return bottom_; }
     double energy_at_top() const noexcept { return top_; }
     EllipticModulus modulus() const { return functions_.modulus(); }
@@ -78,7 +79,8 @@ class GovernorMotion {
    private:
     enum class Form { constant, growing, cn, dn, tn };
 
-    /// opposite : adjacent = tan(angle/2) after `turns` whole turns; `rate` of that angle.
+    /// opposite : adjacent = tan(angle/2) after `turns` whole turns. `rate` is (opposite' adjacent
+    /// - opposite adjacent') over the product of their scales.
     struct Half {
         double opposite, adjacent, turns, rate;
     };

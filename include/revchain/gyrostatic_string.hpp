@@ -113,7 +113,7 @@ template <Real T>
         detail::throw_invalid("wave_speeds", "phase must lie above 0 and not above pi", phase);
     using P = detail::Product<T>;
     const T chord = phase < epsilon<T>() ? phase : T(2) * sin(phase / T(2));
-    // A n^2 - B n - C = 0, where B and C are over chord^2
+    // A x^2 - B x - C = 0 with x = n / chord, for momentum |H|
     const P A = P::of(string.weight)
                     .over(string.gravity)
                     .times(T(1) - chord * chord * detail::share_across(string));
@@ -130,8 +130,9 @@ template <Real T>
 /// difference of the phases of the two circular parts, positive in the direction of rotation of a
 /// wheel with positive momentum. It is the same for waves in both directions, so a reflected wave
 /// is turned twice. NaN if one of the parts does not propagate. Accuracy: 8 ulp, also for a tiny
-/// momentum, divided by the cosine of half the larger phase where that is small. Also throws
-/// InvalidArgument for a speed that is not positive.
+/// momentum, divided by the cosine of half the larger phase where that is small, and multiplied by
+/// the cancellation as for `link_phase`. Also throws InvalidArgument for a speed that is not
+/// positive.
 template <Real T>
 [[nodiscard]] T plane_rotation(const GyrostaticString<T>& string, const T& angular_speed) {
     using std::asin;

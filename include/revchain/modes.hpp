@@ -131,10 +131,10 @@ struct Modes {
 /// Results are bitwise the same for any number of threads. Cost in double: 8 ns per link and mode
 /// with AVX-512, 50 with SSE2; 20 and 70 with shapes, 250 for weights that need several units.
 /// Memory O(N k) with shapes. Throws InvalidArgument for mode numbers outside 1 ...
-/// `chain.mode_count()`, a window unless 0 <= low < high, numbers together with a window, a
-/// tolerance that is negative or NaN, gravity not positive with a window of speeds, negative
-/// `threads`, a method that needs methods.hpp, and as `ModeCounter`. A tolerance out of reach gives
-/// `Status::tolerance_not_met` and the bounds reached.
+/// `chain.mode_count()`, a window unless 0 <= low < high, numbers together with a window, two
+/// windows, a tolerance that is negative or NaN, gravity not positive with a window of speeds,
+/// negative `threads`, a method that needs methods.hpp, and as `ModeCounter`. A tolerance out of
+/// reach gives `Status::tolerance_not_met` and the bounds reached.
 template <Real T>
 [[nodiscard]] Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options = {});
 

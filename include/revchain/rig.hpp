@@ -88,7 +88,7 @@ struct Flywheel {
 
 /// A wheel on free bearings: its spin is constant, `spin` rad/s about the link's axis as seen from
 /// outside. Throws InvalidArgument for a negative weight or radius of gyration, gravity <= 0,
-/// numbers not finite.
+/// numbers not finite, and if the momentum overflows.
 [[nodiscard]] Flywheel free_flywheel(double weight, double radius_of_gyration, double spin,
                                      double gravity = conical_pendulum::standard_gravity);
 
@@ -131,8 +131,7 @@ struct Rigging {
     friend bool operator==(const Rigging&, const Rigging&) = default;
 };
 
-/// A chain and its rigging. Without rigging the answers are those of its `Chain`; modes cost the
-/// same, steady shapes a quarter more.
+/// A chain and its rigging. Without rigging answers and costs are those of its `Chain`.
 ///
 /// Throws InvalidArgument, naming the link, for lists that are neither empty nor as long as the
 /// chain, numbers that are not finite, a carriage or a dashpot at a firm support, a free trolley

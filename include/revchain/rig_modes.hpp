@@ -84,7 +84,7 @@ struct SlackLink {
 /// The method that found the modes of a rig.
 enum class RigMethod {
     modes,   ///< the rig is a plain chain: `modes` of that chain
-    counts,  ///< one after the other, by counts
+    counts,  ///< numbered by counts
     discs,   ///< all at once, each proved in a disc of its own
 };
 [[nodiscard]] inline std::string_view to_string(RigMethod method) noexcept {
@@ -111,21 +111,22 @@ struct RigModes {
 /// is solved as a chain, to `rtol`; all others to full accuracy, with proved bounds.
 ///
 /// Method without momentum: lambda K y = M y. All heights are real if K > 0 (every link hangs in
-/// net tension) or M >= 0 (no fluid that turns). Counts number them (Sylvester): positive ones as
-/// modes, negative ones in `other`. With momentum: K + n G - (n^2/g) M. If K > 0 and M >= 0, each
-/// of its eigenvalues passes through 0 at most once on either side of n = 0, so counts number the
-/// speeds. If M > 0 there are 2 real ones for each link and yielding support. Otherwise all heights
-/// or speeds are found at once (Ehrlich, Aberth) and proved in disjoint discs.
+/// net tension) or M >= 0 (no fluid that turns, no driven wheel). Counts number them (Sylvester):
+/// positive ones as modes, negative ones in `other`. With momentum: K + n G - (n^2/g) M. If K > 0
+/// and M >= 0, each of its eigenvalues passes through 0 at most once on either side of n = 0, so
+/// counts number the speeds. If M > 0 there are 2 real ones for each link and for a support on a
+/// spring. Otherwise all heights or speeds are found at once (Ehrlich, Aberth) and proved in
+/// disjoint discs.
 /// Accuracy, measured (tests/cpp/rig_modes.cpp): heights without momentum, speeds with it, within
 /// 0.501 ulp of the exact ones of the stored numbers. Their bounds are at most 1 ulp by counts;
-/// shapes are as for chains. Cost: 50 ns per link and mode with shapes if all links hang in tension; O(N k) memory.
-/// Discs: O(N^2).
-/// Throws InvalidArgument for dashpots or linear drag (use `damped_modes`), mode numbers below 1,
-/// gravity not positive, a window unless 0 <= low < high, numbers together with a window, a
-/// negative `rtol` or `threads`, and numbers too far apart. Also throws for a rig that needs discs
-/// and has springs at pins or, with its yielding support, more than 20,000 links. A bound that is
-/// not proved is infinite. The status is `tolerance_not_met` if a bound is unproved or above
-/// `rtol`, or `complete` is false.
+/// shapes are as for chains. Cost: 50 ns per link and mode with shapes if all links hang in
+/// tension, pins have no springs and no trolley rolls freely; O(N k) memory. Discs: O(N^2).
+/// Throws InvalidArgument for dashpots or linear drag (use `damped_modes`), `first` or `count`
+/// below 1, gravity not positive, a window unless 0 <= low < high, numbers together with a window,
+/// two windows, a negative `rtol` or `threads`, and numbers too far apart. Also throws for a rig
+/// that needs discs and has springs at pins or, with its yielding support, more than 20,000 links.
+/// A bound that is not proved is infinite. The status is `tolerance_not_met` if a bound is
+/// unproved, that of a height is above `rtol`, or `complete` is false.
 REVCHAIN_DECLARE
 [[nodiscard]] RigModes modes(const Rig& rig, const RigModesOptions& options = {});
 

@@ -45,8 +45,9 @@ struct RopePoint {
 class SkippingRope {
    public:
     /// Throws InvalidArgument for numbers that are not positive and finite, for too few or too
-    /// many, and if no rope exists: a length not above the span, a sag not below half the length, a
-    /// rope too slow or too tight to bend.
+    /// many, and if no rope exists or double cannot hold it. None exists for a length not above
+    /// span or slack, a sag not below half the length of a half wave, a slack not below twice the
+    /// sag per half wave, a rope too slow or too tight to bend.
     explicit SkippingRope(const RopeGiven& given);
 
     Index half_waves() const noexcept { return half_waves_; }
@@ -77,7 +78,7 @@ class SkippingRope {
     [[nodiscard]] RopePoint at_arc(double arc) const;
 
     /// The rope with its ends moved to another span, with the same length and angular momentum. The
-    /// work done on it is the gain in moment_of_inertia() n^2 / 2.
+    /// work done on it, over the mass per length, is the gain in moment_of_inertia() n^2 / 2.
     [[nodiscard]] SkippingRope drawn_to(double span) const;
 
    private:
@@ -107,7 +108,7 @@ struct TortuousGiven {
 struct TortuousPoint {
     double x, arc;         ///< along the axis and along the rope, from a point nearest to the axis
     double radius;         ///< distance from the axis
-    double angle;          ///< round the axis; of a plane rope -pi/2 for x < 0 and pi/2 for x > 0
+    double angle;          ///< round the axis; a plane rope: pi/2 past x = 0, pi more per crossing
     double radius_slope;   ///< d radius / dx
     double angle_slope;    ///< d angle / dx
     double tension_ratio;  ///< tension over its component along the axis
@@ -119,11 +120,12 @@ struct TortuousPoint {
 ///     R3 = R1 + R2 + 2 r,   d = sqrt(R3 - R1),   kappa^2 = (R2 - R1)/(R3 - R1),  u = d x/(2 c^2),
 ///     R = R1 cn^2 u + R2 sn^2 u,   arc = d E(am u) - (r/d) u,
 ///     theta = sqrt(R2 R3/R1)/d Pi(1 - R2/R1; am u).
-/// Accuracy: 1e-14 relative, of the angle 1e-14 (1 + |angle|). Cost: 0.2 microseconds to construct,
-/// 0.3 microseconds a point.
+/// Accuracy in what data and x determine well: 1e-14 relative, of the angle 1e-14 (1 + |angle|).
+/// Cost: 0.2 microseconds to construct, 0.3 microseconds a point.
 class TortuousRope {
    public:
-    /// Throws InvalidArgument for data outside the ranges above, and if a result overflows.
+    /// Throws InvalidArgument for data outside the ranges above, if a result overflows, and if
+    /// tension g/n^2 underflows.
     explicit TortuousRope(const TortuousGiven& given);
 
     double least_radius() const noexcept { return first_; }

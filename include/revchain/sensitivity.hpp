@@ -61,10 +61,10 @@ struct Sensitivity {
 /// of a s^2 over the links above, which carry it. Laws: sum of W d/dW = 0; sum of a d/da + h d/dh +
 /// rho d/drho = lambda. A link's part of this sum, a times `length_in_proportion`, is lambda times
 /// its share of y^T K y, so a longer link, in proportion, never lowers a height. Accuracy: every
-/// entry is within its error bound, which is proved; measured 0.51 ulp of the entry, or 1e-28 of
-/// the largest entry if that is more (tests/cpp/sensitivity.cpp). The heights in `modes` need not
-/// be accurate. Cost: 0.5 microseconds a link and mode; O(N k) memory. Throws InvalidArgument if the
-/// chain's weights are more than 1e123 apart.
+/// entry is within its error bound, which is proved; measured 0.51 ulp of entries above 1e-3 of the
+/// largest sum of terms (tests/cpp/sensitivity.cpp). The heights in `modes` need not be accurate.
+/// Cost: 0.5 microseconds a link and mode; O(N k) memory. Throws InvalidArgument if the chain's
+/// weights are more than 1e123 apart.
 template <Real T>
 [[nodiscard]] Sensitivity<T> sensitivity(const Chain<T>& chain, const Modes<T>& modes);
 
@@ -122,11 +122,11 @@ struct RigSensitivity {
 /// support's pin last). They follow from y^T (K + n G - n^2 M/g) y = 0, stationary in y:
 ///     dn/dx = - y^T (dK + n dG - n^2 dM/g) y / y^T (G - 2 n M/g) y.
 /// With s the slope of a link, dG/dH is s^2 for a link that hangs, -s^2 for one that stands. dn/dx
-/// is formed in double-double. Offsets with errors e of the largest give an error of about 4 e (|K|
-/// +
-/// |n G| + n^2 |M|/g) over the denominator. Cost O(N). Throws InvalidArgument for a speed that is 0
-/// or not finite, gravity not positive, offsets not N + 1, not finite or all 0, and for springs at
-/// pins, dashpots and linear drag.
+/// is formed in double-double. Offsets with errors e of the largest give x dn/dx an error of about
+///     4 e (|K| + |n G| + n^2 |M|/g) / |y^T (G - 2 n M/g) y|.
+/// Cost O(N). Throws InvalidArgument for a speed that is 0 or not finite, gravity not positive,
+/// offsets not N + 1, not finite, or that move no weight and tilt no flywheel, weights more than
+/// 1e123 apart, springs at pins, dashpots and linear drag.
 REVCHAIN_DECLARE
 [[nodiscard]] RigSensitivity sensitivity(const Rig& rig, double angular_speed,
                                          const Vector<double>& offset,
@@ -137,8 +137,8 @@ REVCHAIN_DECLARE
 /// speed the parts below and above the link act as springs at its pins. Formed in double-double:
 /// the speed has a relative error of 1e-14 (tests/cpp/linear/rig_sensitivity.cpp). Cost O(N).
 /// Throws InvalidArgument for a speed that is 0 or not finite, gravity not positive, springs at
-/// pins, dashpots, linear drag, a link number out of range, and if no finite momentum has that
-/// effect.
+/// pins, dashpots, linear drag, weights more than 1e123 apart, a link number out of range, and if
+/// no finite momentum has that effect.
 REVCHAIN_DECLARE
 [[nodiscard]] double momentum_for_speed(const Rig& rig, Index link, double angular_speed,
                                         double gravity = conical_pendulum::standard_gravity);

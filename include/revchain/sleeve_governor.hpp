@@ -53,7 +53,7 @@ struct GovernorPoint {
 /// How a governor answers a change of speed.
 struct GovernorEffort {
     double effort = 0;  ///< mean force at the sleeve while it is lifted
-    double lift = 0;    ///< to the equilibrium at the changed speed; NaN if there is none
+    double lift = 0;    ///< to the next stable equilibrium outwards at that speed; NaN if none
     double power = 0;   ///< effort times lift
 };
 
@@ -75,7 +75,8 @@ class SleeveGovernor {
     explicit SleeveGovernor(const GovernorData& data);
 
     const GovernorData& data() const noexcept { return data_; }
-    /// The point at an inclination. Throws InvalidArgument if the arms or links cannot reach there.
+    /// The point at an inclination. Throws InvalidArgument unless it is less than a right angle,
+    /// either way, and the links reach there.
     [[nodiscard]] GovernorPoint at(double inclination) const { return at(inclination, {}); }
     /// The speed of equilibrium, NaN or infinite if there is none.
     [[nodiscard]] double speed(double inclination) const { return at(inclination).speed; }

@@ -94,10 +94,11 @@ REVCHAIN_DECLARE
 
 /// Returns the stability of a shape with both ends held. Firm ends are fixed; ends on springs move
 /// across the axis. N links have 4 N - 8 exponents if free, 2 N - 4 if driven, with or without
-/// gravity; each end on a spring adds 4, or 2. Arms turn at constant speed: if an end is off
-/// the axis no rotation is removed, which adds 2 exponents if free. Accuracy: simple exponents to
-/// 1e-13 of the largest (tests/cpp/finite/stability/held.cpp). Cost: O(N^3). Throws InvalidArgument
-/// as above, and for a massless moving pin below the upper end.
+/// gravity; each end on a spring adds 4, or 2; an upper one that moves no mass adds 2. Arms turn
+/// at constant speed: if an end is off the axis no rotation is removed, which adds 2 exponents if
+/// free. Accuracy: simple exponents to 1e-13 of the largest (tests/cpp/finite/stability/held.cpp).
+/// Cost: O(N^3). Throws InvalidArgument as above, and for a massless moving pin below the upper
+/// end.
 REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Chain<double>& chain, const HeldShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);

@@ -68,8 +68,8 @@ struct FunicularPolygon {
 /// The polygon with a given horizontal component of tension: sides are parallel to the rays from
 /// the pole (0, 0) to (horizontal_tension, rise) on the line of load. `weight` (n); `position` (n + 2)
 /// with both supports. Accuracy: heights half an ulp and 1e-28 of the drop below the chord. Cost
-/// O(n). Throws InvalidArgument unless weights are positive, positions increase, and numbers and
-/// results are finite.
+/// O(n). Throws InvalidArgument unless weights and tension are positive, positions increase, and
+/// numbers and results are finite.
 template <Real T>
 [[nodiscard]] FunicularPolygon<T> funicular_polygon(const std::type_identity_t<Vector<T>>& weight,
                                                     const std::type_identity_t<Vector<T>>& position,
@@ -97,7 +97,8 @@ struct TransverseModes {
 /// length. `weight` (n); `position` (n + 2) with both supports. Method: an equivalent hanging chain
 /// (`modes`). Accuracy: heights 2 ulp (tests/cpp/statics.cpp), within `error_bound`, which is the
 /// proved bound of `modes` plus the roundings of spacings and unit. Throws InvalidArgument unless
-/// there are weights, all positive, positions increase, and all numbers, also the heights, are finite.
+/// there are weights, weights and tension are positive, positions increase, and all numbers, also
+/// the heights, are finite.
 template <Real T>
 [[nodiscard]] TransverseModes<T> transverse_modes(const std::type_identity_t<Vector<T>>& weight,
                                                   const std::type_identity_t<Vector<T>>& position,

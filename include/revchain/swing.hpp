@@ -33,7 +33,7 @@ struct SwingOptions {
 
 /// A hanging chain swinging in a plane with small amplitude: the sum of its modes.
 struct Swing {
-    Table<double> offset;              ///< (times, N+1) free end first, the support's 0 last
+    Table<double> offset;              ///< (times, N+1) free end first, the support last
     Table<double> velocity;            ///< (times, N+1)
     Vector<double> angular_frequency;  ///< (k,) w = sqrt(g / lambda), ascending
     Vector<double> energy;             ///< (k,) of each mode, weight times length; constant

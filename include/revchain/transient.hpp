@@ -52,13 +52,14 @@ struct Transient {
     Table<std::complex<double>> velocity;  ///< (times, N+1)
     Vector<double> error_estimate;         ///< (times,) of every offset; not proved
     double end = 0;  ///< the time at which the prescribed motion is over, or 0
-    /// (N+1) since then, the largest distance of each pin from below the support, to 1 %, and of the
-    /// support from its resting place; infinite if the motion grows
+    /// (N+1) since then, a bound of the distance of each pin from below the support, to 1 %, and of
+    /// the support from its resting place. Amplitudes are added where the damping ratio is below
+    /// 0.05. Infinite if the motion grows
     Vector<double> sway{};
     Vector<std::complex<double>> exponent{};  ///< (k,) of the motions, see `damped_modes`
     Table<std::complex<double>> shape{};      ///< (k, N+1)
-    /// (k,) Since the end, offsets from the resting place are the sum of amplitude shape
-    /// exp(exponent (t - end)), without momentum its real part.
+    /// (k,) If `in_modes`, since the end offsets from the resting place are the sum of amplitude
+    /// shape exp(exponent (t - end)), without momentum its real part.
     Vector<std::complex<double>> amplitude{};
     Vector<std::complex<double>> start{};  ///< (N+1) offsets at time 0
     bool projected = false;  ///< whether `start` differs: pins without inertia go where they must

@@ -75,14 +75,14 @@ struct Tuned {
 /// At a given height the chain below and above a link acts as a spring at each of its pins. A
 /// length, a centroid or a radius of gyration that gives any mode this height is then a root of an
 /// equation of degree 1 or 2. Proved counts on each side of a root assign it to a mode and bound
-/// its error. A weight loads all links above; its nearest value on each side is found in steps that
-/// provably skip none. Accuracy: `error_bound`, proved. Measured: 1 to 4 ulp of the value if its
-/// logarithmic derivative is not small (tests/cpp/tune.cpp). If no value is found, the extremes are
-/// those of 33 sampled values and, for a weight, of those searched. Cost: some counts of modes,
-/// O(N) each; for a weight, of heights. Throws InvalidArgument for numbers out of range, for
-/// weights more than 1e123 apart, and unless exactly one of height and speed is given. Also throws
-/// for a range in which a link always stands: this one or, for a weight, one above. A part of a
-/// range in which one stands is cut off.
+/// its error. A weight loads all links above. On each side, steps that provably skip no value lead
+/// to the nearest one, or to another within a few per cent of it. Accuracy: `error_bound`, proved.
+/// Measured: 1 ulp of the value if its logarithmic derivative exceeds 1e-11. If no value is found,
+/// the extremes are those of 33 sampled values and, for a weight, of those searched. Cost: some
+/// counts of modes, O(N) each; for a weight, of heights. Throws InvalidArgument for numbers out of
+/// range, for weights more than 1e123 apart, and unless exactly one of height and speed is given.
+/// Also throws for a range in which a link always stands: this one or, for a weight, one above. A
+/// part of a range in which one stands is cut off.
 REVCHAIN_DECLARE
 [[nodiscard]] Tuned tune(const Chain<double>& chain, const TuneOptions& options);
 

@@ -248,8 +248,8 @@ struct JointedLinks {
 /// - a2, §8 (14), with m = W2 h2/(W1 a2). For l2 = a2 this is (lambda - l1)(lambda - l2) = l2
 /// h1/(m + 1), (15). The second height is 0 if both radii of gyration are 0 and the upper centroid
 /// is at the support. Accuracy: 3 ulp (tests/cpp/two_links.cpp). Also throws InvalidArgument for
-/// lengths or weights more than 1e77 apart (in double), and unless W2 h2 + W1 a2 > 0 (the upper
-/// link hangs).
+/// weights more than 1e77 apart, if a2 or h1 is 1e77 times smaller than l1, a2, |h2| or k2 (in
+/// double), and unless W2 h2 + W1 a2 > 0 (the upper link hangs).
 template <Real T>
 [[nodiscard]] HeightPair<T> jointed_links(const JointedLinks<T>& links) {
     const auto n = detail::jointed_numbers("jointed_links", links);

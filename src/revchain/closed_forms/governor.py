@@ -241,8 +241,8 @@ class SleeveGovernor(Solved, row="point"):
     def equilibria(self, angular_speed: float) -> GovernorEquilibria:
         """Return all equilibria at a speed, by inclination, whatever the stops.
 
-        The arms are at most horizontal, and the balls on their own side of the axis. Intervals prove that there are no
-        others.
+        Inclinations are below a right angle, and the balls on their own side of the axis. Intervals prove that there are
+        no others.
 
         angular_speed: Speed of the shaft in rad/s, or a text such as "300 rpm"; not negative.
         returns: A sequence of `GovernorPoints`, whose `angular_speed` is the given one, with a table and a picture.

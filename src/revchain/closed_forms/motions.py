@@ -126,7 +126,7 @@ class GovernorMotion(Solved, row="motion", title="GovernorMotion: {self.regime}"
 
     __slots__ = ()
     regime: Field[str] = Field(
-        "``'rest'``, ``'aside'`` (dn), ``'asymptotic'`` (sech, sinh), ``'through'`` (cn) or ``'revolutions'`` (tn).",
+        "``'rest'``, ``'aside'`` (dn), ``'asymptotic'`` (sech, sinh, exp), ``'through'`` (cn) or ``'revolutions'`` (tn).",
         heading="",
     )
     period: Field[float] = Field(
@@ -206,8 +206,8 @@ class SkippingRope(Solved, row="rope", title="SkippingRope: {self._waves}"):
     tension: Tension in the middle of a half wave, as the length of rope of equal weight
     gravity: Acceleration of gravity, which only relates weight to mass (standard gravity in m/s^2 if left out)
     raises: If a number is not positive and finite, if too few or too many are given, or if no rope has them: the length
-        does not exceed the span, the sag is not below half the length of a half wave, or no rope bends so at this speed
-        and tension.
+        does not exceed span or slack, the sag is not below half the length of a half wave, the slack is not below twice
+        the sag per half wave, or no rope bends so at this speed and tension.
     notes: Cost: 20 microseconds, and for each point 0.06 by `at` or 0.6 by `at_arc`.
 
     >>> rope = rc.SkippingRope(span=2.0, length=3.0, angular_speed=12.0)
@@ -311,7 +311,8 @@ class SkippingRope(Solved, row="rope", title="SkippingRope: {self._waves}"):
 
 
 @described(
-    "1e-14 relative; for the angle, 1e-14 of its size plus 1", "section 5, text after (6)",
+    "1e-14 relative for what data and x determine well; for the angle, 1e-14 of its size plus 1",
+    "section 5, text after (6)",
     "7 microseconds, and 0.25 for each point",
 )
 class TortuousRope(

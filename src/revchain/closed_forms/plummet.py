@@ -147,7 +147,7 @@ def carried_response(length: ArrayLike, height: ArrayLike) -> FloatOrArray:
 
 @closed_form(
     _core.carried_inclinations,
-    "4 ulp; where two roots nearly meet, times ``1 / (1 - (cos at which two meet / cos of the root)**3)``",
+    "4 ulp; where two roots nearly meet, times ``1 / |1 - (cos at which two meet / cos of the root)**3|``",
     "section 1",
     made=_inclinations,
 )

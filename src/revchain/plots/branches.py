@@ -94,7 +94,8 @@ def plot_branch(
         ``effective_energy``.
     stability: Whether to draw the stability, as in `Branches.plot`.
     frame: Frame of the stability, ``"free"`` or ``"driven"``, as in `SteadyShape.stability`.
-    raises: If `quantity` is another word, or one that the system does not have; if `frame` is another word.
+    raises: If `quantity` is another word, or one that the system does not have; if `frame` is another word; for cords if
+        `stability` is true.
 
     >>> ax = rc.branch(rc.Chain.uniform_plummets(2, length=2.0), 1, min_conical_height=0.1).plot()
     >>> ax.get_ylabel()
@@ -122,16 +123,17 @@ def plot_branches(
     other changes of stability, such as a Hamiltonian Hopf bifurcation; of chains and rigs `Branches.stability_windows` says
     what each is. The line changes at the ends of these windows, also between two points (of a held chain midway).
 
-    Above about 19,000 (points times links squared) fewer places are examined, above 150,000 only the points and their
-    neighbours, so that a short window can be missed. If the stability was asked for, the first limit does not apply. With
-    ``hanging_only=False`` colours show the posture if there are at most 7.
+    Above about 19,000 (points times links squared) fewer places are examined, above 150,000 only the points, so that a
+    short window can be missed. If the stability was asked for, the first limit does not apply; if not, the second is
+    75,000. With ``hanging_only=False`` colours show the posture if there are at most 7.
 
     quantity: Quantity to draw, as in `Branch.plot`.
     stability: Whether to draw the stability; if False, all lines are solid. If left out, it is drawn for chains, rigs and
         held chains if that takes less than about a second (points times links squared at most 150,000).
     frame: Frame of the stability, ``"free"`` or ``"driven"``, as in `SteadyShape.stability`.
     returns: The drawing. The title says whether the diagram is `complete`, but for held systems.
-    raises: If `quantity` is another word, or one that the system does not have; if `frame` is another word.
+    raises: If `quantity` is another word, or one that the system does not have; if `frame` is another word; for cords if
+        `stability` is true.
 
     >>> ax = rc.branches(rc.Chain.uniform_plummets(3, length=3.0), min_conical_height=0.04).plot()
     >>> ax.get_xlabel()

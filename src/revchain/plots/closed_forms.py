@@ -58,7 +58,9 @@ def _finish(ax: Axes, across: str, up: str, title: str) -> None:
 
 @described(bound=True)
 def plot_force_diagram(diagram: ForceDiagram, axes: tuple[Axes, Axes] | None = None) -> tuple[Axes, Axes]:
-    """Draw the shape and its force diagram side by side, with the letters of Fig. 3 of the paper.
+    """Draw the shape and its force diagram side by side.
+
+    Up to 8 links have the letters of Fig. 3 of the paper; with more only O and N are written.
 
     returns: Axes of the shape and of the forces. The weights lifted onto the line through N are drawn to a scale in
         which ON is the mean weight.

@@ -304,6 +304,7 @@ def beside_at_rest(system: System | None, ax: Axes | None, width: float, height:
     """Return the axes of the caller, or new axes, beside the system at rest if its links are few.
 
     Both have the same levels if `across` is given, the metres across of a drawing in true proportions or 0 of another.
+    A very flat drawing has levels of its own.
     """
     bent = getattr(system, "span", None) is not None  # it cannot hang straight
     if ax is not None or system is None or bent or not Straight(system).few:
@@ -326,7 +327,7 @@ def beside_at_rest(system: System | None, ax: Axes | None, width: float, height:
 
 
 def rows_of(caller: str, modes: Modes, which: Iterable[int] | None) -> Whole:
-    """Return the rows of the modes to draw; of a rig both directions of each number."""
+    """Return the rows of the modes to draw: the first six, or those of the numbers, of a rig in both directions."""
     available = modes.number
     if available.size == 0:
         raise ValueError(f"{caller}: there are no modes")
@@ -350,7 +351,7 @@ def plot_modes(
 
     Forward modes of a rig with flywheels are blue, backward ones red; inverted links are thick.
 
-    modes: Numbers of the modes to draw (for a rig, of both directions); the six slowest of this result if left out.
+    modes: Numbers of the modes to draw (for a rig, of both directions); the first six of this result if left out.
     carried: Response of the same system at one speed with all pins, drawn first, with its support on its circle.
     speed: Unit of the speeds: ``"rad/s"``, ``"rpm"``, ``"Hz"`` (turns per second) or ``"s"`` (the period). If left out,
         each speed is written in the unit of the question, or in rpm and as a period.

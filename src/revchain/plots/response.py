@@ -156,7 +156,7 @@ def plot_swing(
 
 @described(bound=True)
 def plot_campbell(found: Campbell, ax: Axes | None = None, *, speed: str | None = None) -> Axes:
-    """Draw the frequencies against the speed, its multiples, and a dot at each crossing; red where the shape is unstable.
+    """Draw the frequencies against the speed, its multiples, and a dot at each crossing; orange where the shape is unstable.
 
     speed: Unit of speeds and frequencies: ``"rpm"``, ``"rad/s"``, ``"Hz"``, or ``"s"``, which draws periods against the
         period. If left out, that of the question, or rpm.

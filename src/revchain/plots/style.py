@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The parts that all pictures share: colours, frames and units. They are the same in axes of the caller."""
+"""The parts that all pictures share: colours, frames and units. In axes of the caller colours and units are the same."""
 
 from __future__ import annotations
 
@@ -179,7 +179,7 @@ def moved_by(ax: Axes, x: float = 0.0, y: float = 0.0) -> Any:
 def apart(places: Any, size: Any, low: float = -np.inf, high: float = np.inf) -> Floats:
     """Return the places of texts of these sizes, moved as little as possible (in least squares) until none overlap.
 
-    They stay between the two ends if there is room for all.
+    They keep their order, and stay between the two ends if there is room for all.
     """
     at = np.asarray(places, float)
     order = np.argsort(at, kind="stable")

@@ -16,8 +16,9 @@ from .sheet import speed_text
 class DragShape(Result, row="link", title="{summary}", notes=("{_remarks}",), good="status"):
     """The steady shape of a chain that is carried round through still air; returned by `drag_shape`.
 
-    It turns as a rigid figure about the vertical axis. Coordinates are in the turning frame: x outward through the support,
-    y in the sense of the motion (trailing parts are at negative y), z upward from the support.
+    It turns as a rigid figure about the vertical axis. Coordinates are in the turning frame: x outward through the support
+    (through a spring's rest position, if it has one), y in the sense of the motion (trailing parts are at negative y), z
+    upward from the support.
 
     Examples
     --------

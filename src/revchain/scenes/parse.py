@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checked data from the text of a scene or study file; all errors are found at once."""
+"""Checked data from the text of a scene or study file; errors are collected, so that one run shows many."""
 
 from __future__ import annotations
 

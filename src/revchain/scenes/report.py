@@ -343,7 +343,7 @@ def _sentence(text: str) -> str:
 
 
 def check_path(what: str, path: str | os.PathLike[str]) -> None:
-    """Raise a ValueError unless the path of a report ends in .html, and an ImportError if there is nothing to draw with."""
+    """Raise a ValueError unless the path ends in .html or .htm, and an ImportError if there is nothing to draw with."""
     if Path(file_path("revchain", "the report", path)).suffix.lower() not in (".html", ".htm"):
         raise ValueError(f"{what} must end in .html, got {os.fspath(path)}; a browser prints the page to PDF")
     require("matplotlib", "plot", "a report")
