@@ -95,10 +95,11 @@ struct CordModesOptions {
 /// 4e-15 (tests/cpp/cord.cpp). `error_bound` has these figures; it was measured, for exponents from
 /// -0.99 to 100. For a density function that jumps or is less accurate it is 2e-15 plus twice
 /// `LineDensity::error` plus `rounding_at_jumps`. With particles or a bob it is larger by 3 ulp
-/// times the relative change of the height by that of a particle's place, the largest: 1e-14 as a
-/// rule (10,000 cords with weights 1e16 apart, tests/cpp/cord_particles.cpp). Offsets and slopes
-/// are within 1e-15 times the mode number of the largest one, with series within 1e-14 for the
-/// first 7 modes. Cost: closed forms take 0.04 to 8 microseconds a mode; power series mostly take
+/// times the largest ratio of a relative change of the height to that of the place of a particle or
+/// of the support. As a rule it is then below 1e-14 (10,000 cords with weights up to 1e16 apart,
+/// tests/cpp/cord_particles.cpp). Offsets and slopes are within 1e-15 times the mode number of the
+/// largest one, with series within 1e-14 for the first 7 modes, with particles or a bob within
+/// 1e-11. Cost: closed forms take 0.04 to 8 microseconds a mode; power series mostly take
 /// 0.2 to 2 ms for each mode up to the last one requested. Throws InvalidArgument as `modes` of a
 /// chain, for `all_modes` (there are infinitely many), and with series for modes above number 1e5,
 /// a density too rough or a tip too heavy.
@@ -118,8 +119,8 @@ REVCHAIN_DECLARE_ANALYTIC
 ///
 /// Method: zeros of a cross product of Bessel functions (special/taut_cord.hpp). Accuracy: 2 ulp
 /// (tests/cpp/cord.cpp); offsets within 1e-15 times the mode number of the largest one. Cost: as
-/// with a tip weight. Throws InvalidArgument for a span, for a tension that does not exceed the
-/// weight (the cord would not be straight), and as for a hanging cord.
+/// with a tip weight. Throws InvalidArgument for a span, with gravity for a tension that does not
+/// exceed the weight (the cord would not be straight), and as for a hanging cord.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordModes modes(const Held<Cord>& held, const CordModesOptions& options = {});
 REVCHAIN_DECLARE_ANALYTIC
@@ -133,7 +134,8 @@ struct CordSensitivity {
                                 ///< constant
     Vector<double> tip_weight;  ///< 0 for a cord held at both ends
     Table<double> weights;      ///< (k, n) of each particle, from the free end
-    Vector<double> exponent;    ///< of the density, at constant weight; NaN for a density function
+    Vector<double> exponent;    ///< of the density, at constant weight; NaN for a density function,
+                                ///< 0 for a cord held at both ends
     Vector<double> tension;     ///< at the upper end; 0 for a cord that hangs
 };
 
@@ -180,7 +182,8 @@ struct CordDiagramOptions {
 /// branches reach the end and a theorem counts the shapes (finite/cord/continuous_chain.hpp): those
 /// of a uniform cord, of a power s^p without a tip or with p below 0, and of every cord with at
 /// most one slower mode.
-/// Accuracy: as `branch`. Throws InvalidArgument as `branch`, and for `lists` below 1.
+/// Accuracy: as `branch`. Throws InvalidArgument for a bob, a length above 1e6 heights, `lists`
+/// below 1, and unless exactly one of height and speed is given, positive and finite.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordBranches branches(const Cord& cord, const CordDiagramOptions& options);
 
@@ -188,8 +191,9 @@ REVCHAIN_DECLARE_ANALYTIC
 /// chain.
 ///
 /// Accuracy: the shape is within its `error_bound`, an estimate, of the exact one at its conical
-/// height. That height is the given one, or within 1e-14 of the one at which the number is reached
-/// (tests/cpp/cord_branches.cpp). Cost: that of the branch up to there. Throws as for a chain, and
+/// height. That height is the given one, or within 1e-12 of the one at which the number is reached
+/// (tests/cpp/cord_branches.cpp). It is less accurate for a tip radius that hardly changes with the
+/// height. Cost: that of the branch up to there. Throws as for a chain, and
 /// for a bob.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordShape steady_shape(const Cord& cord, const OnBranchOptions& options);
@@ -203,11 +207,12 @@ REVCHAIN_DECLARE_ANALYTIC
 /// The stability of a steady shape of a cord that hangs, or is held at both ends, which are fixed.
 ///
 /// Method: Galerkin's, with polynomials on panels (finite::DisturbedCord), twice: with 8 and with
-/// 10 nodes a panel. `exponents` are the slowest of infinitely many, by imaginary part, up to the
-/// first on which the two results differ by more than 1e-6 of its size. `margin` covers the
-/// difference of the two growth rates. If the numbers of negative directions differ, or the growth
-/// rate is near `margin`, the verdict is `undecided`. Only finitely many directions have negative
-/// energy, and only as many motions can grow, so the omitted motions of high frequency do not grow.
+/// 10 nodes a panel. `exponents` are those of infinitely many that are smaller than the first on
+/// which the two results differ by more than 1e-6 of its size. They are sorted by imaginary part,
+/// the most negative first. `margin` covers the difference of the two growth rates. If the numbers
+/// of negative directions differ, or the growth rate is near `margin`, the verdict is `undecided`.
+/// Only finitely many directions have negative energy, and only as many motions can grow, so the
+/// omitted motions of high frequency do not grow.
 /// `internal_damping` is NaN: friction in bending needs a stiffness, which a cord does not have.
 /// `external_damping` is for the drag of still air on a piece of cord over its length and velocity,
 /// as for a chain. Accuracy: exponents to 1e-8 (measured against the modes, 1e-9 below a critical

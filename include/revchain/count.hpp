@@ -93,10 +93,11 @@ class LazyCounter;
 }
 
 /// Counts the modes of one chain above a conical height or below a speed, without computing any
-/// mode. The chain is assembled once, and each count is one O(N) pass. The count is proved: in T
-/// (10 ns per link in double) or, where rounding leaves that in doubt, in `Wide<T>`. A conical
-/// height within 2^20 roundings of `Wide<T>` (4e-25 in double) of the given one may count as
-/// equal to it. Throws InvalidArgument if no count is proved (weights and lengths many powers of ten apart).
+/// mode. The chain is assembled once, and each count is one to three O(N) passes. The count is
+/// proved: in T (10 ns per link in double) or, more slowly, in `Wide<T>`. That is used where
+/// rounding leaves a doubt, and for a speed whose height is not exact in T. A conical height within
+/// 2^20 roundings of `Wide<T>` (4e-25 in double) of the given one may count as equal to it.
+/// Throws InvalidArgument if no count is proved (weights and lengths many powers of ten apart).
 template <Real T>
 class ModeCounter {
    public:

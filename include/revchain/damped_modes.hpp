@@ -31,7 +31,7 @@ struct DampedModesOptions {
 /// Damped modes. Mode k is at index k - first.
 struct DampedModes {
     Index first = 1;
-    Index available = 0;        ///< number of modes, found or not
+    Index available = 0;        ///< number of modes found, listed or not; all if `complete`
     Index rigid = 0;            ///< 1 if a free trolley can move as a whole; no mode of the list
     bool has_momentum = false;  ///< the motions of one sense are then no conjugates of the other's
     /// (k,) s, 1/s: offsets move as the real part of shape exp(s t), or with momentum as
@@ -44,8 +44,8 @@ struct DampedModes {
     Status status = Status::success;       ///< `tolerance_not_met`: a bound is not proved
 
     Index size() const noexcept { return exponent.size(); }
-    /// These return the speed of the oscillation (0: the motion only decays), -Re s / |s|, and the
-    /// time in which it decays by the factor e (negative: it grows).
+    /// These return the speed of the oscillation (0: the motion only decays or grows), -Re s / |s|,
+    /// and the time in which it decays by the factor e (negative: it grows).
     double damped_frequency(Index j) const { return std::abs(exponent[j].imag()); }
     double damping_ratio(Index j) const { return -exponent[j].real() / std::abs(exponent[j]); }
     double decay_time(Index j) const { return -1 / exponent[j].real(); }
@@ -58,12 +58,13 @@ struct DampedModes {
 /// Method: Eigen's eigenvalues of the first-order form are starts. Each is refined with a symmetric
 /// Rayleigh quotient in two words, O(N). All vectors together, which are orthogonal with respect to
 /// the first-order form, give discs that hold one exponent each (Gershgorin): proved bounds.
-/// Without inertia at a pin, and for exponents that cannot be told apart (critical damping), the
-/// bound is infinite and `error_estimate` has the size of the last correction. Accuracy: every
-/// exponent is within `error_bound`, which is usually below 1e-15 (tests/cpp/damped_modes.cpp).
+/// Without inertia at a pin (or with less than 1e-12 of what moves with it), and for exponents that
+/// cannot be told apart (critical damping), the bound is infinite and `error_estimate` has the size
+/// of the last correction. Accuracy: every exponent is within `error_bound`, which is usually below
+/// 1e-15 (tests/cpp/damped_modes.cpp).
 /// Cost O(N^3).
 /// Throws InvalidArgument for `first` or `count` below 1, gravity not positive, more than 1000
-/// links, dashpots in a fluid that turns, and numbers too far apart for the first-order form.
+/// links, dashpots in a fluid that turns, and numbers too far apart (weights by more than 1e123).
 REVCHAIN_DECLARE
 [[nodiscard]] DampedModes damped_modes(const Rig& rig, const DampedModesOptions& options = {});
 

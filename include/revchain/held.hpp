@@ -102,41 +102,45 @@ struct HeldCordShapesOptions {
 
 /// Steady shapes at finite amplitude with 1 to `max_half_waves` half waves, sorted by half waves.
 /// Half waves are counted about the line between the rest positions of the two ends; ends on
-/// springs count as pins. A link may be in compression, which only a rod can carry.
+/// springs count as pins. In every shape the inclination of each link is stable under the loads on
+/// it: a thread points along its pull. A rod may be in compression at a pin. Other shapes are not
+/// searched.
 ///
-/// For each number of half waves the first shape is reached by continuation from the nearly
-/// straight chain without gravity. The ends approach, then move to their radii and springs, then
-/// gravity grows. At a given tension it is followed by all other shapes on that branch with this
-/// tension at the upper end. Other shapes of a chain come last among those with as many half waves.
+/// For each number of half waves the shape that continuation from the nearly straight chain without
+/// gravity reaches, if any, comes first. The ends approach, then move to their radii and springs,
+/// then gravity grows. At a given tension it is followed by all other shapes on that branch with
+/// this tension at the upper end. Other shapes of a chain come last among those with as many half
+/// waves.
 ///
 /// `missing` lists the numbers of half waves without a shape. `complete` is true if it is proved
-/// that there is no other shape with 1 to `max_half_waves` half waves in the plane of the axis and
-/// the ends; others are not searched. For a cord this is possible only at a span without gravity.
-/// Otherwise `undecided` has the ranges of the lowest link's inclination (rad) in which other
-/// shapes may exist in that plane. If both radii differ from 0, the arms can twist the chain out of
-/// it, and `complete` is false; otherwise shapes out of it have a link that no pull turns.
+/// that there is no other such shape with 1 to `max_half_waves` half waves in the plane of the axis
+/// and the ends; others are not searched. For a cord this is possible only at a span without
+/// gravity. Otherwise, for a chain and with `prove`, `undecided` has the ranges of the lowest
+/// link's inclination (rad) in which other shapes may exist in that plane. If both radii differ
+/// from 0, the arms can twist the chain out of it, and `complete` is false; otherwise shapes out of
+/// it have a link that no pull turns.
 ///
 /// Forces in `HeldShape` and `HeldCordShape` are multiplied by the conical height. Divide by
 /// `conical_height` for the unit of the weights; without gravity multiply by the square of the
 /// speed for newtons. A branch has a narrow range of tensions: for a skipping rope with k half
-/// waves, 1/(pi k)^2 to 1/(8 k^2) of mass times length times speed squared. With gravity the
-/// tension has a maximum along the branch, so two spans have the same tension.
+/// waves, 1/(pi k)^2 to 1/(8 k^2) of mass times length times speed squared. With gravity, unless
+/// the speed is slow, the tension has a maximum along the branch: two spans have the same tension.
 ///
 /// Method for chains: the unknowns are the two forces at the lower end in the upward sweep of
 /// Greenhill (1908) §8 (21), with exact derivatives. Arc continuation in double is followed by
 /// Newton's method in double-double; Krawczyk's test in intervals of double-double proves the
 /// bound. Completeness is proved by splitting all pulls along the lowest link and all its
 /// inclinations until each part has exactly one shape or none (finite/held/search.hpp). For cords:
-/// power series of degree 24; without gravity y = b sn(K x/a), §5. For 3, 6 and 9 links with l <= a
-/// and one half wave, 99 of 108 lists are proved complete (tests/cpp/held.cpp). With l > a or with
-/// massless links between others no list is proved, and with two or more half waves few are. If
-/// several links are slack at once, as beads can be without gravity, a small range stays undecided.
+/// power series of degree 24, which without gravity give y = b sn(K x/a), §5. For 3, 6 and 9 links
+/// with l <= a and one half wave, 99 of 108 lists are proved complete (tests/cpp/held.cpp). Fewer
+/// are with l > a, with massless links between others, and with two or more half waves. If several
+/// links are slack at once, as beads can be without gravity, a small range stays undecided.
 /// Accuracy: inclinations of chains are correctly rounded up to an error of 1e-20, with a bound
 /// that is mostly proved (tests/cpp/held.cpp). Positions on cords are within 1e-13 of the length,
-/// with an estimated bound. A given tension is met to 1e-15 for cords, to
-/// 1e-12 for chains, relative. Cost: about 100 sweeps of O(N), or 100 paths of a cord; for a
-/// tension some thousand. The proof of completeness of 9 rods at half their length takes 0.1 s;
-/// `budget` 0 omits it.
+/// with an estimated bound. A given tension is met to 1e-15 for cords, to 1e-12 (rarely only 1e-10)
+/// for chains, relative. Cost: about 100 sweeps of O(N), or 100 paths of a cord; for a tension some
+/// thousand. The proof of completeness of 9 rods at half their length takes 0.1 s; `budget` 0 omits
+/// it.
 /// Throws InvalidArgument for a speed missing, not positive or not finite, g/n^2 outside the range
 /// of double, `max_half_waves` below 1, and weights more than 1e123 apart.
 REVCHAIN_DECLARE
@@ -164,7 +168,7 @@ struct HeldModesOptions {
 /// Whirl modes of small amplitude of the straight chain under a tension, slowest first, chosen as
 /// for a hanging chain. At these heights shapes of finite amplitude under the same tension branch
 /// off. N links have N - 1 modes, one more for each end on a spring, less one for each independent
-/// motion of the pins that moves no mass. In `shapes` firm ends are 0, the largest offset is 1, and
+/// motion of the pins that moves no mass. In `shapes` firm ends are 0, the largest in size is 1, and
 /// the lowest pin that moves has a positive offset; nodes are distances from the lower end. Without
 /// gravity a height is `HeldModesOptions::gravity` over the square of the speed. Held cords:
 /// cord.hpp.
@@ -197,7 +201,8 @@ struct HeldDiagramOptions {
     double max_step = 0.1;  ///< relative change of end forces and height between two shapes
 };
 
-/// The branches of a chain or cord held at a span, one for each number of half waves from 1 to the
+/// The branches of a chain or cord held at a span, one for each number of half waves from 1 to a
+/// gap (off the axis or on springs: four missing modes in a row), at most to the
 /// last with a shape at the greatest speed (for a cord at most 1000). A branch begins at that
 /// speed, on the axis at a shape with its number of half waves, and goes to slower speeds, through
 /// folds.
@@ -216,7 +221,7 @@ struct HeldDiagramOptions {
 /// Accuracy: an estimated 1e-15 rad if `condition` is moderate. A cord folds as it approaches the
 /// slowest speed, at which one of its two straight parts, hung from its end, begins to whirl.
 /// Offsets vanish there faster than any power of the difference of speeds, so the last speed found
-/// is a few percent higher. Cost: some hundred shapes of 10 sweeps each.
+/// is up to 3 percent higher. Cost: some hundred shapes of 10 sweeps each.
 /// Throws InvalidArgument for a tension, no gravity, a step not positive, and unless exactly one of
 /// height and speed is given, positive and finite.
 REVCHAIN_DECLARE

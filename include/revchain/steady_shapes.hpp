@@ -108,7 +108,7 @@ struct SteadyShapes {
 /// at 1e-5 of a link's length, 6e-7 at 1e-7. `complete` is proved too. If it is false, `undecided`
 /// has the ranges where shapes may be missing: at exactly a critical speed or a fold, or if the
 /// budget is used up, as for chains of 15 plummets or more at heights near 1/1000 of their length.
-/// It is also false, with nothing undecided, if a link between the lowest and the topmost could
+/// It is also false, even with nothing undecided, if a link between the lowest and topmost could
 /// lean to any side under no load: lambda (W h + a S) <= W h (l - a), or <= W h (a - l) if it may
 /// stand. There may then be shapes that lie in no plane with the axis; these are not searched.
 /// If each link has one inclination for its load, a scan adds the shapes it finds there. At heights

@@ -132,8 +132,8 @@ Index modes_above(const StraightCord& straight, double height) {
     constexpr Index most = 1'000'000'000'000'000;
     Index above = 0, not_above = 1;  // numbers of modes
     while (closed_height(straight, not_above) > height) {
-        above = not_above, not_above *= 2;
-        if (not_above > most)
+        above = not_above, not_above = std::min(2 * not_above, most);
+        if (above == most)
             throw_invalid("count_modes", "there are more than 1e15 modes above conical height",
                           height);
     }

@@ -77,6 +77,7 @@ pencil::CondensedRun<T> lane_of(const LaneRuns<V>& runs, std::size_t lane, Index
     run.transfer.c[0] = static_cast<T>(run.weight);
     run.links = links;
     run.stiffness_error = T(1.1) * epsilon<T>() / T(2);
+    run.mass_error = T(0.1) * epsilon<T>() / T(2);
     return run;
 }
 

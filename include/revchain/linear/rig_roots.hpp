@@ -137,8 +137,10 @@ class RigRoots {
     }
     RigWord at_speed(double speed) const {
         const RigWord n(std::abs(speed));
-        if (has_momentum()) return rig_.pace / n;
-        return RigWord(std::ldexp(gravity_, -rig_.units.length_exponent)) / n / n;
+        const RigWord x =
+            has_momentum() ? rig_.pace / n
+                           : RigWord(std::ldexp(gravity_, -rig_.units.length_exponent)) / n / n;
+        return x < RigWord(1e290) ? x : RigWord(1e290);  // an overflow too: beyond all roots
     }
 
     /// Returns the number of modes of a sense with a larger x, if `proved`.

@@ -92,7 +92,7 @@ DampedModes damped_modes(const Rig& rig, const DampedModesOptions& options) {
     DampedModes result;
     result.first = options.first, result.has_momentum = system.momentum;
     result.rigid = system.rig.rigid;
-    result.complete = all_within(0.4);
+    result.complete = all_within(0.4) && (!roots.empty() || system.exponents() == 0);
     if (!result.complete) result.status = Status::tolerance_not_met;
     result.available = static_cast<Index>(roots.size());
     const Index count = std::clamp<Index>(result.available - options.first + 1, 0,

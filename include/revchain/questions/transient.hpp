@@ -19,8 +19,8 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
 
-/// Does what `transient` says.
-template <int = 0>  // compiled where it is used
+/// Does what `transient` says. Compiled where it is used.
+template <int = 0>
 class TransientMotion {
    public:
     using C = pencil::ComplexWord;
@@ -53,8 +53,8 @@ class TransientMotion {
         if (rows > 0 && motions_.system().inertia && !(loss_ < 1e-9)) {
             const Transient sum = result_;
             step_through();
-            const double most = result_.error_estimate.maxCoeff();
-            if (motions_.all_found() && sum.error_estimate.maxCoeff() <= most) result_ = sum;
+            const auto most = [](const Transient& of) { return of.error_estimate.maxCoeff(); };
+            if (motions_.all_found() && most(sum) <= most(result_)) result_ = sum;
         }
         return std::move(result_);
     }
@@ -392,9 +392,8 @@ Transient transient(const Rig& rig, const TransientOptions& options) {
                               "the support is carried round: use response; its radius is",
                               rig.support().radius);
     if (rig.fluid() == Fluid::turning)
-        detail::throw_invalid("transient",
-                              "a rig moves in a fluid at rest, not in one that turns; links",
-                              rig.size());
+        detail::throw_invalid(
+            "transient", "a rig moves in a fluid at rest, not in one that turns; links", rig.size());
     return detail::TransientMotion<>(rig, options).found();
 }
 

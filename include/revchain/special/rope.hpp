@@ -286,7 +286,7 @@ inline TortuousPoint TortuousRope::at(double x) const {
         point.angle_slope =
             first_ / point.radius * (second_ / point.radius) * (third_ / (2 * strength2_));
     }
-    if (!std::isfinite(point.arc))
+    if (!std::isfinite(point.arc) || !std::isfinite(point.angle))
         detail::throw_invalid(place, "x must be so small that the rope up to it does not overflow",
                               x);
     // (R1 + R2 + r - R) / 2 c^2

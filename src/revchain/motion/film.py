@@ -134,7 +134,8 @@ class Film:
     def colours(self) -> tuple[int, ...]:
         """The number of each figure's colour in the palette; by direction of rotation if there are both."""
         ways = [float(np.sign(figure.speed[0])) for figure in self.figures]
-        return tuple((0 if way > 0 else 1) if len(set(ways)) > 1 else nth for nth, way in enumerate(ways))
+        both = {1.0, -1.0} <= set(ways)
+        return tuple((0 if way > 0 else 1) if both else nth for nth, way in enumerate(ways))
 
     @property
     def words(self) -> str:

@@ -335,7 +335,7 @@ def rows_of(caller: str, modes: Modes, which: Iterable[int] | None) -> Whole:
         return np.arange(min(len(modes), MOST_SHAPES))
     numbers = [integer(caller, "modes", mode) for mode in listed(caller, "modes", which)]
     for mode in numbers:
-        if not available.min() <= mode <= available.max():
+        if mode not in available:
             raise ValueError(f"{caller}: mode must be from {available.min()} to {available.max()}, got {mode}")
     if not numbers:
         raise ValueError(f"{caller}: modes names no mode")
@@ -355,7 +355,7 @@ def plot_modes(
     carried: Response of the same system at one speed with all pins, drawn first, with its support on its circle.
     speed: Unit of the speeds: ``"rad/s"``, ``"rpm"``, ``"Hz"`` (turns per second) or ``"s"`` (the period). If left out,
         each speed is written in the unit of the question, or in rpm and as a period.
-    raises: If `modes` has a number that is not in this result, the result is empty (but for a rig, which is drawn at rest),
+    raises: If `modes` has a number that is not in this result, the result is empty and `modes` is given (else the system is drawn at rest),
         or `carried` is not such a response.
 
     >>> ax = rc.modes(rc.Chain.uniform_rods(120, length=0.36), 4).plot()
@@ -368,7 +368,7 @@ def plot_modes(
         raise TypeError(f"{caller}: carried must be a revchain.Response, got {shown(carried)}")
     if carried is not None and (carried.system != system or carried.offset.shape != (system.size + 1,)):
         raise ValueError(f"{caller}: carried must be the response of the same rig at one speed, of every pin")
-    no_motion = system._kind == "rig" and not len(found) and modes is None
+    no_motion = not len(found) and modes is None
     rows = np.arange(0) if no_motion else rows_of(caller, found, modes)
     straight = Straight(system)
     names, rates = ([], []) if carried is None else (["carried round"], [carried.angular_speed.item()])
@@ -411,8 +411,9 @@ def plot_modes(
     said = [f"offset from {place}, each to its own scale"] * (len(ticks) > 1)
     said += ["rings: nodes"] * any(line.get_gid() == "nodes" for line in ax.lines)
     if not len(rows):
-        rate = float(found.other.growth_rate.max(initial=0.0)) / math.log(2)
-        said.append(f"unstable: a small push\ndoubles every {digits(1 / rate, 2)} s" if rate else "no steady motion")
+        rate = 0.0 if found._beyond_window else float(found.other.growth_rate.max(initial=0.0)) / math.log(2)
+        none = "no mode in this window" if found._beyond_window else "no steady motion"
+        said.append(f"unstable: a small push\ndoubles every {digits(1 / rate, 2)} s" if rate else none)
     ax.set_xlabel(("; " if len(ticks) > 4 else "\n").join(said))
     if system._fluid:
         ax.set_facecolor(FLUID)

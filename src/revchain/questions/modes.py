@@ -96,13 +96,13 @@ def modes(
     Raises
     ------
     ValueError
-        If the requested modes do not exist (of a rig: the first) or are specified in two ways, a window is not a pair
-        (low, high) with low below high, `rtol` is NaN or negative, `threads` is negative, `method` or `precision` is unknown, or the method
-        does not apply to the chain; if a method or another precision than double is asked of a system other than a
-        chain, or `certify` of a cord; if a rig with dashpots or linear drag comes with a window or `certify`, or has
-        more than 1000 links; if a rig has more than 20,000 links and its speeds may be complex (inverted links or
-        driven wheels together with momentum, floats in rotating fluid); if a held system is not under a tension that
-        exceeds its weight.
+        If the requested modes do not exist (of a rig: the first) or are specified in two ways, a window is not a pair (low,
+        high) with low below high, `rtol` is NaN or negative, `threads` is negative, `method` or `precision` is unknown, or
+        the method does not apply to the chain; if a method or another precision than double is asked of a system other than
+        a chain, or `certify` of a cord; if a rig with dashpots or linear drag comes with a window or `certify`, or has more
+        than 1000 links; if a rig has more than 20,000 links, or springs at pins, and its speeds may be complex (inverted or
+        floating links or driven wheels together with momentum, floats in rotating fluid); if a held system is not under a
+        tension that exceeds its weight.
     TypeError
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
 

@@ -104,7 +104,7 @@ def steady_shapes(
 
         Held systems: shapes of 1 to `max_half_waves` half waves, ordered by half waves. Among shapes with equally many, the
         one that is reached from the nearly straight chain without gravity, as the ends approach and gravity then grows,
-        comes first. Each link points along the pull on it, as a thread does. Of two mirror images the one whose lowest link
+        comes first. Each link points to where the load on it turns it back. Of two mirror images the one whose lowest link
         leads outwards is given; ends off the axis have no mirror images. Half waves are counted about the line between the
         ends (with springs: between their rest positions). ``missing`` lists the half waves without a shape. Held chains:
         ``complete`` is true if it is proved that there are no other shapes with these numbers of half waves in the plane of

@@ -56,7 +56,8 @@ class Sensitivity(Result):
     ``added_mass``                  added mass of a link; 0 in a fluid that turns
     ``stiffness`` ``support_mass``  stiffness of the support, mass that moves with it; 0 if it is firm
     ``masses``                      point masses on a cord, shape (R, n), from the free end
-    ``tip_mass`` ``exponent``       tip of a cord; exponent of its density at constant mass (NaN for a function)
+    ``tip_mass`` ``exponent``       tip of a cord; exponent of its density at constant mass (NaN for a function). Both are
+                                    0 for a cord held at both ends
     ``tension`` ``span``            tension at the upper end (0 for a hanging cord); distance of the ends of a held shape.
                                     For a held shape the one that was not given is NaN
     ``angular_speed``               speed of a steady shape

@@ -182,6 +182,8 @@ def verdicts(found: Any) -> list[Verdict]:
 
 
 def _of_modes(found: Modes) -> list[Verdict]:
+    if not len(found) and found._beyond_window:
+        return [Verdict("proved", "No mode is in this window.")] if found._is_good() else []
     if not len(found):
         return [Verdict("proved", "There is no whirl of small amplitude: no speed is missing.")] if found._is_good() else []
     what = "exponent" if found._is_damped else "speed"

@@ -348,6 +348,7 @@ HeldShapes held_shapes_under_tension(const Chain<double>& chain, const HeldSuppo
             add(held.finished(found, Fine(found.span), lambda, options.prove));
         });
     });
+    keep_different(list, options.max_half_waves);
     if (options.prove)
         complete(list, held, lambda, {.value = enclosed<double>(wanted), .is_span = false},
                  options);

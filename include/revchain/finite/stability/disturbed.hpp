@@ -35,7 +35,7 @@ Matrix<S> congruent(const Matrix<S>& A, const Matrix<S>& X) {
 /// G = U'MU is computed link by link without cancellation. A support that yields moves by the last
 /// q and b, which are lengths. It adds lambda E to both stiffnesses and its carriage to M. So does
 /// a lower end on a spring, by the motion of the lowest pin. Angles are scaled so that stiffness
-/// and mass are about 1, for light links too. Damping adds rates of dissipation: F q', H b' at the
+/// and mass add up to 1, for light links too. Damping adds rates of dissipation: F q', H b' at the
 /// pins, and drag by length and velocity.
 template <class S>
 struct DisturbedIn {

@@ -132,6 +132,9 @@ std::vector<StabilityWindow> stability_windows(const Chain<double>& chain, const
 REVCHAIN_DEFINE
 std::vector<StabilityWindow> stability_windows(const Rig& rig, const Branch& branch,
                                                const StabilityWindowsOptions& options) {
+    const auto& trace = finite::trace_of(branch);
+    if (trace.system && !trace.system->rig && rig.is_plain_chain())  // followed as its chain
+        return finite::windows_of(rig.chain(), branch, options);
     return finite::windows_of(rig, branch, options);
 }
 
