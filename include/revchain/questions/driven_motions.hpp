@@ -80,8 +80,9 @@ class DrivenMotions {
         return result;
     }
     /// The largest offsets of all pins from below the support, and of the support from its resting
-    /// place, of free motions with these amplitudes. Motions that hardly decay have all their sizes
-    /// at some time. The sum of the others is seen at 400 instants, to 1 %.
+    /// place, of free motions with these amplitudes. The sizes of motions that hardly decay are
+    /// added: a bound, near which they come if their speeds are in no simple ratio. The sum of the
+    /// others is seen at 400 instants, to 1 %.
     Vector<double> largest_deflections(const std::vector<Complex>& amplitude) const {
         Vector<double> result = Vector<double>::Zero(pins_);
         std::vector<std::size_t> others;

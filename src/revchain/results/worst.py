@@ -17,7 +17,7 @@ from .sheet import in_unit
 if TYPE_CHECKING:
     from .modes import Modes
 
-BOXES = 33  # into which the box of tolerances is divided at most, for each bound
+BOXES = 33  # examined at most for each bound: the box of tolerances, its halves and theirs
 MOST_LINKS = 100
 SLIGHT = 1e-9  # of a speed: a proved range that is only rounding
 CLOSE = 0.05  # of the range of a speed: the gap of a result that is a success
