@@ -436,7 +436,7 @@ HOLDS = (
     Holds("docs/accuracy.md", "which lose everything below κ' = 1e-8", elliptic_lost),
     Holds("docs/models.md", "The choice takes less than a microsecond in C++, and about two for a hundred unequal links",
           lambda r: r.about["parts"]["select"]["status"] == 0),
-    Holds("docs/theory/convergence.md", "the order is 1.000 with plummets at the lower ends, and 2.00 with",
+    Holds("docs/theory/convergence.md", "the order is 1.000 with plummets at the lower ends. It is 2.00 with",
           lambda r: all(abs(r.value("shape-convergence", "order", cutting=cutting, half_waves=1, links=5120) - order) < 0.005
                         for cutting, order in (("lower pins", 1), ("l = 3a/4", 2), ("cell centres", 2)))),
     Holds("docs/theory/convergence.md", "have an order of 1.90 to 1.95 at 5120 links", lambda r: all(

@@ -86,8 +86,9 @@ def test_an_empty_window(certify):
     assert result.number.dtype == np.int64 and result.angular_speed.shape == (0,)
     assert (result.certificate is not None) == certify
     assert result.to_xarray().sizes["mode"] == len(result.to_dataframe()) == 0
+    assert "no mode in this window" in result.plot().get_xlabel()
     with pytest.raises(ValueError, match="there are no modes"):
-        result.plot()
+        result.plot(modes=[1])
 
 
 SELECTORS = {"count": 3, "first": 2, "conical_height": (0.1, 1.0), "angular_speed": (1.0, 2.0)}

@@ -264,7 +264,7 @@ def two_plummets_shapes(
         below the second.
     raises: If a length divided by `height` exceeds 1.1e102.
     notes: Near the vertical a relative error of the data changes the tangents by up to about ``2 x / (x - height)``
-        times as much, where `x` is the conical height at which the shape leaves the vertical. Where two shapes meet,
+        times as much, where the shape leaves the vertical at the height `x`. Where two shapes meet,
         it changes them by its square root.
 
     >>> pair = dict(lower_weight=1, lower_thread=2, upper_weight=3, upper_thread=1)
