@@ -337,3 +337,18 @@ def test_speeds_of_both_directions_are_in_the_chart():
     assert (back.chart.x[0] > 0).all() and (back.figures[0].speed < 0).all()
     [(line, _)] = back.chart.lines
     assert (line > 0).all() and (line.min(), line.max()) == (back.chart.x[0].min(), back.chart.x[0].max())
+
+
+def test_a_swing_ends_with_its_last_time():
+    rig = rc.Rig(rc.Chain(mass=[1.0, 2.0], length=1.0), pins=rc.Pin(damping=0.1))
+    found = film(rc.swing(rig, np.linspace(0, 5, 101), offset=[0.1, 0, 0]), time_scale=1.0, duration=10.0)
+    offset = found.figures[0].offset / found.figures[0].scale[:, None]
+    assert np.abs(offset).max() <= 0.1 + 1e-9 and found.progress[-1] == "Time: 5.000 s"
+
+
+def test_rings_of_a_thinned_film_stay_with_their_links():
+    low = np.arange(800) < 400
+    centroid, gyration = np.where(low, 0.01, 0.005), np.where(low, 0.0, 0.01 / 12**0.5)
+    found = film(rc.modes(rc.Chain(mass=1.0, length=0.01, centroid=centroid, radius_of_gyration=gyration), 1))
+    thin = found.thinned(found.frames, 401)
+    assert thin.rings.shape == thin.stout.shape == (400,)

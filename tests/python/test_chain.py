@@ -209,3 +209,15 @@ def test_wrong_edits(edit, message):
 def test_quantities_are_given_by_name(call):
     with pytest.raises(TypeError, match=r"revchain.Chain: give quantities by name, such as Chain\(mass=.*, length=.*\), got "):
         call()
+
+
+def test_data_are_checked_as_arguments_are():
+    data = rc.Chain(mass=[1.0, 2.0, 3.0], length=1.0).to_dict()
+    for wrong in ({"names": ["a"]}, {"names": [1, 2, 3]}, {"links": "3"}, {"links": 3.5}, {"taper": "x"}):
+        with pytest.raises((ValueError, TypeError), match="revchain.Chain.from_dict"):
+            rc.Chain.from_dict({**data, **wrong})
+    rig = rc.Rig(rc.Chain(mass=1.0, length=1.0)).to_dict()
+    with pytest.raises(ValueError, match="there is no flywheel"):
+        rc.Rig.from_dict({**rig, "flywheel": {"momentum": 1.0}})
+    with pytest.raises(ValueError, match="drag must be a number or an array"):
+        rc.Rig(rc.Chain(mass=[1.0] * 3, length=1.0), drag=[0.0, 0.0])

@@ -173,3 +173,26 @@ def test_bad_input_is_named(call, message):
     with pytest.raises(ValueError) as caught:
         call()
     assert message in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("tip", "centroid", "gyration"), [(5.0, 0.5, 0.5), (5.0, 0.25, 0.25), (1.0, 1.0, 0.0), (1.0, 2.0, 2.0)]
+)
+def test_a_bob_whose_own_height_is_a_power_of_two_of_the_length(tip, centroid, gyration):
+    """There the bob hangs in line with the axis at a height that the search tries."""
+    def heights(off):
+        body = {"tip_centroid": centroid * (1 + off), "tip_radius_of_gyration": gyration}
+        return rc.modes(rc.Cord(1.0, tip_mass=tip, **body), 3).conical_height
+
+    assert np.allclose(heights(0.0), heights(1e-9), rtol=1e-8, atol=0)
+
+
+@pytest.mark.parametrize("power", [400.0, 1500.0, 1e4])
+def test_offsets_of_cords_that_taper_steeply(power):
+    """The density is next to 0 but at the support: offsets of the cord are those of a light thread, 0F1(p + 1; -z^2/4)."""
+    modes = rc.modes(rc.Cord(1.0, density=power), 3)
+    assert np.isfinite(modes.along([0.5, 0.9, 0.999, 1.0])).all() and np.isfinite(modes.shape).all()
+    with mp.workdps(30):
+        x = (power + 1) * mp.mpf(0.9) / mp.mpf(float(modes.conical_height[1]))
+        exact = mp.hyp0f1(power + 1, -x, maxprec=100_000) if power < 2000 else mp.mpf(0)
+    assert abs(modes.along([0.9])[1, 0] - float(exact)) < 1e-13

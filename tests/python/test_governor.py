@@ -164,3 +164,11 @@ def test_calls_that_are_refused():
     ):
         with pytest.raises(ValueError, match=words):
             ask()
+
+
+def test_links_that_reach_a_little_way_alone():
+    """A cell of the search whose ends the links do not reach may hold all that they reach."""
+    governor = rc.SleeveGovernor(ball_mass=1, arm=1, pivot_offset=0.5, sleeve_offset=0.5, lower_arm=0.01, sleeve_mass=1)
+    at = governor.at(math.asin(0.0099))
+    found = governor.equilibria(float(at.angular_speed))
+    assert np.abs(np.asarray(found.inclination) - math.asin(0.0099)).min() < 1e-12

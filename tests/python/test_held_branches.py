@@ -80,3 +80,15 @@ def test_the_speed_of_a_tension():
         rc.steady_shape(MAST, mode=1, top_tension=1.0)
     with pytest.raises(ValueError, match="has no free end"):
         rc.steady_shape(MAST, mode=1, tip_radius=1.0)
+
+
+def test_steps_do_not_lead_to_another_branch():
+    """With the default step the branch of mode 2 once went over to that of mode 1, and lists had one shape twice."""
+    held = rc.Held(rc.Chain(weight=[10.0, 1.0, 1.0], length=[2.0, 5.0, 2.0]), span=6.0)
+    branch = rc.branch(held, 2, min_conical_height=0.02)
+    assert set(branch.half_waves.tolist()) == {2} and len(branch.folds) == 1 and branch.end == "slack"
+    assert [each.mode for each in rc.branches(held, min_conical_height=2.0)] == [1]
+    for height in (0.7, 1.0, 2.0):
+        shapes = rc.steady_shapes(held, conical_height=height, max_half_waves=3)
+        places = [tuple(shape.offset.round(8)) for shape in shapes]
+        assert shapes.complete and len(set(places)) == len(places)

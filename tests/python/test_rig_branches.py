@@ -205,3 +205,17 @@ def test_rigs_of_every_posture_balance_all_along():
                 points += 1
                 assert figure_moments(rig, shape) <= 1e-12 * (1 + abs(shape.offset[-1]) / length)
     assert rising > 0 and points > 100
+
+
+def test_a_rig_that_is_a_plain_chain_has_windows_of_stability():
+    chain = rc.Chain(mass=[1.0, 1.0], length=1.0)
+    of_rig, of_chain = (rc.branches(each, max_angular_speed=8.0)[0] for each in (rc.Rig(chain), chain))
+    assert [w.verdict for w in of_rig.stability_windows()] == [w.verdict for w in of_chain.stability_windows()]
+
+
+def test_a_branch_that_rises_is_not_followed_down():
+    rig = rc.Rig(rc.Chain(mass=[2.79], length=[0.21356]), inverted=[True], support=rc.Support(stiffness=24.107))
+    slowest = rc.modes(rig).angular_speed[0]
+    with pytest.raises(ValueError, match="revchain.branch: mode 1 leaves the vertical at"):
+        rc.branch(rig, 1, max_angular_speed=0.9 * slowest)
+    assert len(rc.branch(rig, 1, max_angular_speed=1.01 * slowest)) > 10

@@ -386,3 +386,21 @@ def test_picture():
     assert len(labels) == 5 and labels[0].strip() == "at rest"
     assert labels[1].startswith("mode 1\nbackward\n−2.657 rpm") and labels[2].startswith("mode 1\nforward\n")
     ax.figure.savefig("/dev/null", format="png")
+
+
+def test_counts_at_speeds_next_to_nothing():
+    rig = rc.Rig(rc.Chain(weight=[1.0, 2.0], length=1.0), support=rc.Support(stiffness=3.0))
+    assert rc.count_modes(rig, angular_speed=1e-200) == 0
+    assert len(rc.modes(rig, angular_speed=(1e-200, 3.0))) == 1
+
+
+@pytest.mark.parametrize("rtol", [-1.0, math.nan])
+def test_no_tolerance_of_a_damped_rig_is_negative(rtol):
+    with pytest.raises(ValueError, match="rtol must not be negative or NaN"):
+        rc.modes(rc.Rig(rc.Chain(mass=[1.0] * 3, length=1.0), drag=0.1), rtol=rtol)
+
+
+def test_a_list_without_a_mode_is_not_complete():
+    """Masses that double words cannot hold together: no exponent is found, and the result says so."""
+    found = rc.modes(rc.Rig(rc.Chain(mass=[1e-60, 1.0], length=1.0), pins=rc.Pin(damping=0.01)))
+    assert len(found) > 0 or not found.complete

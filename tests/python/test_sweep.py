@@ -955,3 +955,18 @@ def test_all_points_are_one_kind_of_system():
     clamped = [{"mass": 1, "length": 0.5, "clamped": True}, *links[1:], *links[1:]]
     found = rc.sweep({"scene": {"links": clamped}, "vary": {"links[0].clamped": {"values": [False, True]}}})
     assert np.isfinite(found["conical_height"]).sum(axis=1).to_numpy().tolist() == [3, 2]
+
+
+def test_quantities_of_pins_and_of_exponents():
+    links = [{"mass": 1, "length": 1, "pin": {"stiffness": 1.0}}]
+    values = {"values": ["1 N m/rad", "2 N m/rad"]}
+    given = rc.Study.from_dict({"scene": {"links": links}, "vary": {"links[0].pin.stiffness": values}})
+    assert rc.sweep(given).coords["links[0].pin.stiffness"].attrs["units"] == "N m/rad"
+    cord = {"scene": {"cord": {"mass": 1, "length": 1}}, "vary": {"cord.density": {"values": [0.0, 1.0]}}}
+    assert "units" not in rc.sweep(rc.Study.from_dict(cord)).coords["cord.density"].attrs
+
+
+def test_modes_of_a_held_chain_whose_pins_have_mass_at_the_points_alone():
+    links = [{"mass": mass, "length": 0.5} for mass in (1, 0, 0, 1, 1)]
+    given = {"scene": {"links": links, "held": {"tension": 100.0}}, "vary": {"links[2].mass": {"values": [2.0, 1.0]}}}
+    assert rc.sweep(rc.Study.from_dict(given)).sizes["mode"] >= 3

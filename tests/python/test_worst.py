@@ -372,3 +372,12 @@ def test_centroids_above_their_pins_that_take_nearly_all_load_off_a_link():
         assert (m.conical_height <= found.highest_conical_height).all(), digits
         if digits < 8:
             assert np.allclose(found.highest_conical_height, m.conical_height, rtol=1e-4)
+
+
+def test_tolerances_that_reach_0_or_a_slack_cord_are_refused_by_name():
+    rig = rc.Rig(rc.Chain(mass=[1.0, 2.0], length=1.0), support=rc.Support(stiffness=30.0))
+    with pytest.raises(ValueError, match="the half-width of stiffness must be less than its value 30, got 30"):
+        rc.modes(rig, 1).uncertainty(stiffness="100 %", worst=True)
+    cord = rc.Held(rc.Cord(1.0, mass=1.0), tension=10.0)
+    with pytest.raises(ValueError, match="Modes.uncertainty: the least tension .* the greatest weight 10.297, .* got 10"):
+        rc.modes(cord, 2).uncertainty(mass="5 %", worst=True)

@@ -295,7 +295,7 @@ def _modes_of(scene: Scene, largest: Scene, varied: bool) -> tuple[int, ...]:
         there = 2 * (system.size + 1) if system.has_momentum else system.size + (varied or _top_moves(system))
     else:
         there = system.size if system._kind == "chain" else system.mode_count or DEFAULT_MODES
-        if varied and system._is_held and not system._is_cord:  # pins without mass in the scene may have one at a point
+        if system._is_held and not system._is_cord:  # pins without mass in the scene may have one at a point
             there = system.size - 1 + sum(end.stiffness < math.inf for end in (system.lower, system.upper))
     there = max(there - first + 1, 1)
     if isinstance(ask.count, int):
