@@ -86,7 +86,7 @@ struct Tuned {
 REVCHAIN_DECLARE
 [[nodiscard]] Tuned tune(const Chain<double>& chain, const TuneOptions& options);
 
-/// Deleted: the C++ library tunes only chains; the Python function `tune` tunes every system. For a
+/// Deleted: `tune` is for chains; the Python function also takes rigs, cords and held systems. For a
 /// rig use `momentum_for_speed` or `stiffness_for_speed` (sensitivity.hpp). If a cord is
 /// stretched with all on it, its heights grow in proportion. For a `Held` change its system, make a
 /// new `Held` and call `modes`.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""An answer as a table for the terminal, as text, as JSON and as CSV."""
+"""An answer as a table for the terminal, as text, JSON, CSV, a workbook and a picture."""
 
 from __future__ import annotations
 

@@ -118,7 +118,7 @@ def two_plummets_from_the_middle(half_length: ArrayLike, x: ArrayLike, weight_ra
         that turns with it (Stokes's float).
     returns: The larger (slower) first.
     raises: If ``abs(x) < half_length * sqrt(-weight_ratio)``: the heights of a float are then complex, and it has no
-        steady motion.
+        steady motion of small inclination.
 
     >>> rc.two_links.two_plummets_from_the_middle(1.0, 0.5, weight_ratio=0.5).round(6)
     array([1.707107, 0.292893])

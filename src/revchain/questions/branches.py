@@ -60,8 +60,8 @@ def branch(
     direction : {1, -1}, optional
         Direction of rotation; only a rig with flywheels depends on it.
     max_points : int, optional
-        Largest number of points; ``end`` is ``budget`` if it is reached. A held system ignores it and stops after 3000
-        steps.
+        Largest number of points; ``end`` is ``budget`` if the branch is cut off there. A held system ignores it and stops
+        after 3000 steps.
     max_step : float, optional
         Largest step between two points, in units of ``Branch.arc``; the first step of a chain or rig from the vertical
         may be 0.1. For a held system: largest relative change of the forces at its end and of the conical height.
@@ -195,8 +195,8 @@ def branches(
     -----
     A listed shape that matches no branch lies on an isolated branch, which is then followed from that shape to its end.
     ``consistent`` is true if the shapes of each list match the branches one to one, and no branch stops early, as at a slack
-    link. Each list must be proved to have all shapes in a plane with the axis. Lists of cords are scanned, not proved; of
-    their branches only those of modes must not stop early.
+    link (`loose` is no early end). Each list must be proved to have all shapes in a plane with the axis. Lists of cords are
+    scanned, not proved; of their branches only those of modes must not stop early.
 
     An isolated branch that is a closed loop can begin and end between two of the 16 speeds, so that no list contains it.
     Interval arithmetic therefore splits the plane of conical height and tangent of the lowest link until each part has

@@ -97,8 +97,8 @@ def steady_shapes(
         proved ``error_bound``, usually 2.2e-16. A chain has no shapes in any posture if the height exceeds that of its
         first mode.
 
-        Cords: ordered by half waves. ``complete`` is true if a theorem counts the shapes: there is then one for each
-        critical height above the given height. This holds for a uniform cord with or without a tip, and for a density
+        Cords: ordered by half waves. ``complete`` is true if a theorem counts the shapes, one for each critical height
+        above the given one, and none is within 7e-15 of it. This holds for a uniform cord with or without a tip, and for a density
         ``s**p`` without a tip, or with a tip if p is below 0. It also holds if at most one critical height lies above
         the given one. Otherwise a shape that exists only between two scanned offsets is missed.
 

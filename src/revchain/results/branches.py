@@ -297,9 +297,10 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         Returns
         -------
         tuple of SteadyShape
-            The shapes in the order of the arc. Within 1e-9 of the speed of a fold those next to it may be missing; the
-            shape of the fold is there, within rounding, if the branch does not pass this speed elsewhere. The tuple is empty if the speed is outside the range of the branch. At the speed at which the branch leaves the
-            vertical it is empty or, by rounding, has a nearly straight shape.
+            The shapes in the order of the arc; none if the speed is outside the range of the branch. Within 1e-9 of the
+            speed of a fold its two neighbouring shapes may be missing. At the speed of the fold, to rounding, its shape is
+            returned if no other has this speed. At the speed at which the branch leaves the vertical the tuple is empty or,
+            by rounding, has a nearly straight shape.
 
         Raises
         ------
@@ -684,7 +685,7 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
     )
     consistent: Field[bool] = Field(
         "Whether at each of the speeds `looked_at` the list is proved (of a cord: scanned) and each of its shapes "
-        "lies on exactly one branch, and no branch stops early. Held systems have neither this nor `complete`, `remark` and "
+        "lies on exactly one branch, and no branch stops early (`loose` does not). Held systems have neither this nor `complete`, `remark` and "
         "`looked_at`.",
         fact=True,
     )

@@ -67,7 +67,7 @@ class Balance:
 
     @property
     def own(self) -> Floats:
-        """Resistance of each link to rotation about the centres of gravity of its bodies."""
+        """Moments of inertia of the bodies of each link about their centres of gravity, less the axial one of its wheel."""
         of_bodies = np.bincount(self.link, weights=self.moves * self.gyration**2, minlength=self.size)
         return of_bodies - self.axial
 

@@ -115,8 +115,8 @@ class Stability(
         heading="with drag in air",
     )
     growth_rate: Field[float] = Field(
-        "Largest real part of the exponents, at least 0, in units of the turning speed; in a rotating fluid 0 for a "
-        "minimum, NaN for any other shape.",
+        "Largest real part of the exponents, at least 0, in units of the turning speed; without exponents, as in a "
+        "rotating fluid, 0 for a minimum, else NaN.",
         fact=True,
     )
     margin: Field[float] = Field(

@@ -88,7 +88,7 @@ class Numbers:
             raise SceneError(self.source, problems=without_consequences(self.problems))
 
     def value(self, key: str, given: object, quantity: str, sign: str, finite: bool = True) -> float:
-        """A number or text with a unit in the SI unit of the quantity."""
+        """Return a number, or a text with a unit, in the SI unit of the quantity; NaN if it is refused."""
         if given is UNSET:  # missing or of a wrong kind; the error is noted already
             return math.nan
         assert isinstance(given, float | int | str)

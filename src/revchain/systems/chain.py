@@ -67,7 +67,8 @@ class Chain(System):
 
     Notes
     -----
-    A number given for all links is stored once. Cost: O(N), when the chain is made.
+    A mass, length or centroid given for all links is stored once, inertia if lengths and centroids are, too. Cost: O(N),
+    when the chain is made.
 
     References
     ----------

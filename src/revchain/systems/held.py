@@ -30,9 +30,10 @@ class Held(System):
     weightless : bool
         True to leave gravity out. The weights of a system given by weight then count as masses.
     lower, upper : Support, optional
-        Support of an end of a chain; a firm point on the axis if left out. `stiffness` is that of a spring across the
-        axis, `mass` moves with the end, and `radius` is that of the circle in which the end is carried round. Both radii
-        lie in one plane with the axis; a negative one is on the other side. With a tension both radii must be 0.
+        Support of an end of a chain; a firm point on the axis if left out. `stiffness` is that of a spring across the axis,
+        `mass` moves with the end, and `radius` is that of the circle in which the end, or with a spring its rest position,
+        is carried round. Both radii lie in one plane with the axis; a negative one is on the other side. With a tension both
+        radii must be 0.
 
     Raises
     ------

@@ -42,7 +42,7 @@ _KINDS = {
 _NAMES = {
     "a length": "length diameter centroid radius_of_gyration pendulum_length length_in_proportion conical_height min_conical_height span radius "
     "tip_radius tip_centroid tip_radius_of_gyration support_radius offset support_offset arc_length displaced_centroid displaced_radius_of_gyration "
-    "height x arm thread rod distance deflection tip slack sag arc place pendulum lift "
+    "height position x arm thread rod distance deflection tip slack sag arc place pendulum lift "
     "pivot_offset lower_arm joint sleeve_offset sleeve_arm",
     "an area": "area",
     "a mass": "mass added_mass tip_mass ball_mass sleeve_mass",
