@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The film of each kind of result: what is drawn, how large, how fast."""
+"""The film of each kind of result that moves: what is drawn, how large, how fast."""
 
 from __future__ import annotations
 

@@ -30,7 +30,7 @@ class Fact(NamedTuple):
     ----------
     name : str
         Its name in words.
-    value : float or str
+    value : float, str or bool
         The value.
     unit : str
         Its unit.

@@ -94,7 +94,7 @@ class Sheet:
     notes : list of str
         Lines below the table.
     good : bool
-        Whether everything was found and proved; also true for shapes of a held system or of one branch.
+        False if something that could be found or proved was not; true for results that promise no proof.
     spread : bool
         Whether a long table prints evenly spaced rows instead of the first ones.
     named : callable, optional
