@@ -335,8 +335,10 @@ def rows_of(caller: str, modes: Modes, which: Iterable[int] | None) -> Whole:
         return np.arange(min(len(modes), MOST_SHAPES))
     numbers = [integer(caller, "modes", mode) for mode in listed(caller, "modes", which)]
     for mode in numbers:
-        if mode not in available:
+        if not available.min() <= mode <= available.max():
             raise ValueError(f"{caller}: mode must be from {available.min()} to {available.max()}, got {mode}")
+        if mode not in available:
+            raise ValueError(f"{caller}: mode {mode} is not in this result")
     if not numbers:
         raise ValueError(f"{caller}: modes names no mode")
     return np.concatenate([np.flatnonzero(available == number) for number in numbers])

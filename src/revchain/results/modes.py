@@ -683,7 +683,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
 
     @property
     def _beyond_window(self) -> bool:
-        """Whether there are modes, but none in the window that was asked for."""
+        """Whether the system has modes, and the window that was asked for has none."""
         return not len(self) and any(each is None or each > 0 for each in self.available)
 
     @property

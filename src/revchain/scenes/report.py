@@ -345,7 +345,7 @@ def _sentence(text: str) -> str:
 
 
 def check_path(what: str, path: str | os.PathLike[str]) -> None:
-    """Raise a ValueError unless the path ends in .html or .htm, and an ImportError if there is nothing to draw with."""
+    """Raise a ValueError if the path ends in neither .html nor .htm, and an ImportError if matplotlib is missing."""
     if Path(file_path("revchain", "the report", path)).suffix.lower() not in (".html", ".htm"):
         raise ValueError(f"{what} must end in .html, got {os.fspath(path)}; a browser prints the page to PDF")
     require("matplotlib", "plot", "a report")

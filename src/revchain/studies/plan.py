@@ -293,10 +293,10 @@ def _modes_of(scene: Scene, largest: Scene, varied: bool) -> tuple[int, ...]:
     first = 1 if isinstance(ask.first, UnsetType) else ask.first
     if system._kind == "rig":
         there = 2 * (system.size + 1) if system.has_momentum else system.size + (varied or _top_moves(system))
+    elif system._is_held and not system._is_cord:  # pins without mass in the scene may have one at a point
+        there = system.size - 1 + sum(end.stiffness < math.inf for end in (system.lower, system.upper))
     else:
         there = system.size if system._kind == "chain" else system.mode_count or DEFAULT_MODES
-        if system._is_held and not system._is_cord:  # pins without mass in the scene may have one at a point
-            there = system.size - 1 + sum(end.stiffness < math.inf for end in (system.lower, system.upper))
     there = max(there - first + 1, 1)
     if isinstance(ask.count, int):
         count = ask.count if system._is_cord else min(ask.count, there)
