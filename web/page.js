@@ -206,7 +206,7 @@ function showShapes() {
             `${plural(list.length, 'shape')} at ${inUnit(state.speed)}${state.radius > 0 ? '' : ', beside the straight one'}${
                 shapes.complete
                     ? '. Proved: at this speed there are no others.'
-                    : '. There may be others: the search ended at its limit, or the speed is that of a mode.'
+                    : '. There may be others: the search ended at its limit, the speed is that of a mode, or a link can leave the plane.'
             }${list.length > MOST_CARDS ? ` The first ${MOST_CARDS} are drawn.` : ''}`,
         );
     showCards(
