@@ -268,6 +268,19 @@ TEST_CASE("critical damping: two motions become one", "[linear]") {
         CHECK(found.error_estimate[i] <= 1e-13);
     }
     CHECK(found.sway[0] == 1);
+    const auto no_times = transient(rig, {.offset = offset, .gravity = 1});
+    CHECK(no_times.sway[0] == 1);
+    CHECK_FALSE(no_times.in_modes);
+    // The start, too, is what was given. With velocity 1 the offset is (1 + 2 t) exp(-t), at most 2 exp(-1/2).
+    for (const double off : {0.0, 1e-15, -1e-15, 1e-14, -1e-14, 1e-12, 1e-10, 1e-8})
+        for (const std::vector<double>& time : {std::vector<double>{}, std::vector<double>{0, 1}}) {
+            const Rig close(rig.chain(), {.pins = {{.damping = 2 * (1 + off)}}});
+            const auto thrown = transient(close, {.offset = offset, .velocity = offset, .time = time, .gravity = 1});
+            CAPTURE(off, time.size());
+            CHECK(thrown.start[0] == 1.0);
+            CHECK_FALSE(thrown.projected);
+            CHECK(std::abs(thrown.sway[0] - 2 * std::exp(-0.5)) <= 3e-6);
+        }
     // nearly critical: the modes lose eight digits, the exponential none
     const Rig near(Chain<double>({plummet(1.0, 1.0)}), {.pins = {{.damping = 2 * (1 + 1e-15)}}});
     CHECK(std::abs(transient(near, {.offset = offset, .time = {1}, .gravity = 1}).offset(0, 0) - 2 / M_E) <= 1e-14);

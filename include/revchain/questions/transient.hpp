@@ -50,7 +50,8 @@ class TransientMotion {
         result_.offset.resize(rows, pins), result_.velocity.resize(rows, pins);
         result_.error_estimate.resize(rows);
         superpose();
-        if (rows > 0 && motions_.system().inertia && !(loss_ < 1e-9)) {
+        const bool lost = rows > 0 ? !(loss_ < 1e-9) : !motions_.all_found();
+        if (motions_.system().inertia && lost) {
             const Transient sum = result_;
             step_through();
             const auto most = [](const Transient& of) { return of.error_estimate.maxCoeff(); };
@@ -123,8 +124,7 @@ class TransientMotion {
         return q;
     }
     void set_start() {
-        double last = 0;
-        for (const double t : options_.time) {
+        for (double last = 0; const double t : options_.time) {
             require_finite(place, "time", t);
             if (t < 0) throw_invalid(place, "times must not be negative", t);
             if (t < last) throw_invalid(place, "times must ascend", t);
@@ -210,6 +210,8 @@ class TransientMotion {
             };
             if (k == 0) {
                 put(state, scaled_[0], 0, result_.start, v, size);
+                // With inertia everywhere nothing snaps, and a sum of motions would lose digits.
+                if (motions_.system().inertia) result_.start = motions_.offsets_of(q_) * length_;
                 add_support(piece, 0, result_.start, v);
                 set_projected();
             }
@@ -225,17 +227,15 @@ class TransientMotion {
                 if (!y.allFinite() || !v.allFinite())
                     throw_invalid(place, "the motion grows beyond all numbers before this time", t);
                 const double turns = fastest * t * static_cast<double>(pace_);
-                result_.error_estimate[row] = (unit + 0x1p-96 * turns) * size +
-                                              epsilon<double>() * std::abs(support_at(piece, h));
+                const double there = support_moves_ ? std::abs(piece.offset_after(h)) : 0;
+                result_.error_estimate[row] =
+                    (unit + 0x1p-96 * turns) * size + epsilon<double>() * there;
                 advance(options_.progress, 0.5 + 0.5 * double(row + 1) / double(rows));
             }
             if (!is_last) state = at(pieces_[k + 1].begin);
         }
         loss_ = !motions_.all_found() ? 1 : largest > 0 ? unit * worst / largest : unit;
         set_sway(state);
-    }
-    double support_at(const MotionPiece& piece, double h) const {
-        return support_moves_ ? piece.offset_after(h) : 0.0;
     }
     void add_support(const MotionPiece& piece, double h, Vector<Complex>& y,
                      Vector<Complex>& v) const {
