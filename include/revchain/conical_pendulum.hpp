@@ -165,7 +165,7 @@ template <Real T>
 struct HeldPlummet {
     T radius, depth;  ///< of the plummet: from the axis, and below the upper point
     T upper_tension, lower_tension;
-    /// If false, that thread is slack, its tension is 0, and the plummet circles on the other one
+    /// If false, that thread is slack, its tension is 0, and the plummet is on the other one alone
     bool upper_taut, lower_taut;
 };
 

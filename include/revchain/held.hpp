@@ -52,9 +52,9 @@ struct HeldBy {
 ///
 /// Throws InvalidArgument unless exactly one of span and tension is given, positive and finite, for
 /// a span not less than the length, and for firm ends as far apart as the length. Also throws for
-/// numbers not finite, a stiffness not positive, a carriage weight that is negative or has no
-/// spring, a dashpot at an end, a radius together with a tension, springs or radii for a cord, and
-/// a cord that is not uniform or has a tip weight.
+/// numbers not finite (but for the infinite stiffness of a firm end), a stiffness not positive, a
+/// carriage weight that is negative or has no spring, a dashpot at an end, a radius together with a
+/// tension, springs or radii for a cord, and a cord that is not uniform or has a tip weight.
 template <class System>
 class Held {
     static_assert(std::is_same_v<System, Chain<double>> || std::is_same_v<System, Cord>);
@@ -117,8 +117,8 @@ struct HeldCordShapesOptions {
 /// and the ends; others are not searched. For a cord this is possible only at a span without
 /// gravity. Otherwise, for a chain and with `prove`, `undecided` has the ranges of the lowest
 /// link's inclination (rad) in which other shapes may exist in that plane. If both radii differ
-/// from 0, the arms can twist the chain out of it, and `complete` is false; otherwise shapes out of
-/// it have a link that no pull turns.
+/// from 0, the arms can twist the chain out of it, and `complete` is false; otherwise a shape out
+/// of it has a link that could lean to any side under no load.
 ///
 /// Forces in `HeldShape` and `HeldCordShape` are multiplied by the conical height. Divide by
 /// `conical_height` for the unit of the weights; without gravity multiply by the square of the
@@ -168,10 +168,10 @@ struct HeldModesOptions {
 /// Whirl modes of small amplitude of the straight chain under a tension, slowest first, chosen as
 /// for a hanging chain. At these heights shapes of finite amplitude under the same tension branch
 /// off. N links have N - 1 modes, one more for each end on a spring, less one for each independent
-/// motion of the pins that moves no mass. In `shapes` firm ends are 0, the largest in size is 1, and
-/// the lowest pin that moves has a positive offset; nodes are distances from the lower end. Without
-/// gravity a height is `HeldModesOptions::gravity` over the square of the speed. Held cords:
-/// cord.hpp.
+/// motion of the pins that moves no mass. In `shapes` firm ends are 0, the largest in size is 1,
+/// and the lowest pin that moves has a positive offset; nodes are distances from the lower end.
+/// Without gravity a height is `HeldModesOptions::gravity` over the square of the speed. Held
+/// cords: cord.hpp.
 ///
 /// Method: the elements are those of a hanging chain, on top of the lowest link or spring. Modes
 /// are counted in double; each gets a Rayleigh quotient in double-double and two proved counts.

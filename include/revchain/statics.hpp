@@ -47,11 +47,11 @@ struct ForceDiagram {
 /// unless the shape has as many links as the chain.
 [[nodiscard]] ForceDiagram force_diagram(const Chain<double>& chain, const SteadyShape& shape);
 
-/// The straight chain with the weights of the shape moved to the axis at their levels. Each link is
-/// as long as its link in the shape is high. Its mode at the shape's conical height has the offsets
-/// of the shape, at any inclination below a right angle and for links of any kind. Its stiffness is
-/// that of the shape perpendicular to the turning plane. Throws InvalidArgument as `force_diagram`,
-/// and for an inverted link.
+/// The straight chain with the weights of the shape moved to the axis at their levels. Each link's
+/// length is the height between its two pins in the shape. Its mode at the shape's conical height
+/// has the offsets of the shape, at any inclination below a right angle and for links of any kind.
+/// Its stiffness is that of the shape perpendicular to the turning plane. Throws InvalidArgument as
+/// `force_diagram`, and for an inverted link.
 [[nodiscard]] Chain<double> transferred_to_axis(const Chain<double>& chain,
                                                 const SteadyShape& shape);
 
@@ -66,10 +66,10 @@ struct FunicularPolygon {
 };
 
 /// The polygon with a given horizontal component of tension: sides are parallel to the rays from
-/// the pole (0, 0) to (horizontal_tension, rise) on the line of load. `weight` (n); `position` (n + 2)
-/// with both supports. Accuracy: heights half an ulp and 1e-28 of the drop below the chord. Cost
-/// O(n). Throws InvalidArgument unless weights and tension are positive, positions increase, and
-/// numbers and results are finite.
+/// the pole (0, 0) to (horizontal_tension, rise) on the line of load. With n values of `weight`,
+/// `position` has n + 2, with both supports. Accuracy: heights half an ulp, and 1e-28 of the drop
+/// below the chord and of the supports' heights. Cost O(n). Throws InvalidArgument unless weights
+/// and tension are positive, positions increase, and numbers and results are finite.
 template <Real T>
 [[nodiscard]] FunicularPolygon<T> funicular_polygon(const std::type_identity_t<Vector<T>>& weight,
                                                     const std::type_identity_t<Vector<T>>& position,

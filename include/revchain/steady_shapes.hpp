@@ -146,12 +146,12 @@ REVCHAIN_DECLARE
 /// momentum/length. If it is negative (a wheel against the rotation, a float), the link leans
 /// against its load and is followed along each inclination. `complete` is also false if a link
 /// leans against its load in a rig of so many links that the budget is spent, if the topmost link
-/// of a support off the axis or on a spring could lean to any side, or if lambda E equals
-/// the total moving weight, to rounding. Pins may then be at any distance, and the search ends far
-/// beyond the chain's reach.
-/// Throws InvalidArgument as for chains, but a negative speed is the backward direction. Also
-/// throws for springs at pins, linear drag, a dashpot at the support, an effective tension that
-/// vanishes, and a lowest link whose moving weights balance about its pin.
+/// of a support off the axis or on a spring could lean to any side, or if lambda E equals the total
+/// moving weight, to rounding. Pins may then be at any distance, and the search ends far beyond the
+/// chain's reach. Throws InvalidArgument as for chains, and for a speed so small that g/n^2
+/// overflows; a negative speed is the backward direction. Also throws for springs at pins, linear
+/// drag, a dashpot at the support, an effective tension that vanishes, and a lowest link whose
+/// moving weights balance about its pin.
 REVCHAIN_DECLARE
 [[nodiscard]] SteadyShapes steady_shapes(const Rig& rig, const RigShapesOptions& options);
 REVCHAIN_DECLARE

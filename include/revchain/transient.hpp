@@ -24,16 +24,16 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 /// A prescribed motion of the support, or a force on it, in time. Times ascend; between two of them
 /// velocities, accelerations and forces are straight lines, offsets a cubic spline. Two equal times
-/// are a jump of accelerations or forces. A support that has a spring is moved at the far end of the
-/// spring, any other itself.
+/// are a jump of accelerations or forces. A support that has a spring is moved at the far end of
+/// the spring, any other itself.
 struct SupportMotion {
     enum class Given { acceleration, velocity, offset, force };
     Given given = Given::acceleration;
     std::vector<double> time{};   ///< >= 0; before the first and after the last no acceleration
     std::vector<double> value{};  ///< for each time. The first offset is 0 unless offsets are given
-    /// For offsets: true if the support rests before the first time and after the last. If false, it
-    /// goes on with the velocities at the ends. One cubic then holds over the first two pieces, and
-    /// one over the last two.
+    /// For offsets: true if the support rests before the first time and after the last. If false,
+    /// it goes on with the velocities at the ends. One cubic then holds over the first two pieces,
+    /// and one over the last two.
     bool rests = true;
 };
 
@@ -52,9 +52,10 @@ struct Transient {
     Table<std::complex<double>> velocity;  ///< (times, N+1)
     Vector<double> error_estimate;         ///< (times,) of every offset; not proved
     double end = 0;  ///< the time at which the prescribed motion is over, or 0
-    /// (N+1) since then, a bound of the distance of each pin from below the support, to 1 %, and of
-    /// the support from its resting place. Amplitudes are added where the damping ratio is below
-    /// 0.05. Infinite if the motion grows
+    /// (N+1) since then, the largest distance of each pin from below the support, and of the
+    /// support from its resting place, seen at 400 instants, to 1 %. Motions with a damping ratio
+    /// below 0.05 count with their whole amplitudes: it may be too large. Infinite if the motion
+    /// grows
     Vector<double> sway{};
     Vector<std::complex<double>> exponent{};  ///< (k,) of the motions, see `damped_modes`
     Table<std::complex<double>> shape{};      ///< (k, N+1)

@@ -43,7 +43,7 @@ class InclinedPendulum(NamedTuple):
 class HeldPlummet(NamedTuple):
     """A point mass on two threads tied to the axis: radius, depth below the upper tie, tensions, and which are taut.
 
-    A slack thread has tension 0; the mass then circles on the other thread.
+    A slack thread has tension 0; the mass then circles on the other thread or hangs from it.
 
     Examples
     --------

@@ -89,7 +89,7 @@ class Mechanism:
 
     @property
     def reach(self) -> float:
-        """The greatest possible distance from the axis, in metres."""
+        """The greatest possible distance from the axis while the support is in its resting place, in metres."""
         return float(self.length.sum()) + self.radius
 
     def part(self, k: int, what: str) -> str:

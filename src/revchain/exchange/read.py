@@ -90,9 +90,10 @@ def from_mjcf(
     body that turns freely about its centre of gravity is a point mass. Inclined hinges reduce the gravity in that plane.
 
     Stiffness and damping of the joints at a pin, equal in both its hinges, are those of a `Pin`. Bodies on slides above
-    all links are the carriage of a `Support`: a spring, or a trolley if the slide has no stiffness. In a plane it has one
-    slide. A hinge about the vertical above all links is a turntable that keeps its speed. Links without a turntable, or on
-    ball joints, do not spin about their own axes: moments of inertia about these axes have no effect and are left out.
+    all links are the carriage of a `Support`: a spring, or a trolley if the slide has no stiffness. Links on
+    parallel hinges need one slide, in their plane; others two, at right angles. A hinge about the vertical above all links
+    is a turntable that keeps its speed. Links without a turntable, or on ball joints, do not spin about their own axes:
+    moments of inertia about these axes have no effect and are left out.
 
     Contacts, keyframes, the ends of a rail, and motors that exert no force without a signal are not read.
 

@@ -72,7 +72,7 @@ class Text:
         return builder.close()
 
     def put_right(self) -> None:
-        """Change what MuJoCo refuses without need, and note changes that matter."""
+        """Repair what MuJoCo would refuse for no good reason; note repairs that matter, and obstacles."""
         if not self.is_urdf:
             self._include(self.root, set())
         self.settings = {name: value for each in self.root.iter("compiler") for name, value in each.attrib.items()}

@@ -178,7 +178,7 @@ def plot_skipping_rope(rope: SkippingRope, ax: Axes | None = None, *, speed: str
     points = rope.at_arc(np.linspace(0.0, rope.length, 200 * rope.half_waves + 1))
     ax.axhline(0.0, **AXIS)
     label = unit.text(rope.angular_speed) if rope.has_speed else f"length {rope.length:.4g}"
-    ax.plot(points.x, points.offset, linewidth=1.6, label=label)
+    ax.plot(points.x, points.offset, color=BLUE, linewidth=1.6, label=label)
     ax.set(xlabel="along the axis (m)", ylabel="distance from axis (m)", aspect="equal")
     legend_outside(ax)
     return ax
@@ -201,7 +201,7 @@ def plot_tortuous_rope(rope: TortuousRope, ax: Axes | None = None, *, half_waves
     round_ = np.linspace(0.0, 2 * np.pi, 200)
     for radius in {rope.least_radius, rope.greatest_radius} - {0.0}:
         ax.plot(radius * np.cos(round_), radius * np.sin(round_), color="0.7", linestyle="--", linewidth=0.9)
-    ax.plot(points.radius * np.cos(points.angle), points.radius * np.sin(points.angle), linewidth=1.6)
+    ax.plot(points.radius * np.cos(points.angle), points.radius * np.sin(points.angle), color=BLUE, linewidth=1.6)
     ax.plot(0.0, 0.0, marker="+", color="0.4")
     ax.set(
         xlabel="x (m)",
@@ -232,7 +232,7 @@ def plot_governor(motion: GovernorMotion, ax: Axes | None = None, *, duration: f
     for angle in (motion.least_angle, motion.greatest_angle):
         if np.isfinite(angle):
             ax.axhline(np.degrees(angle), color="0.6", linestyle=":", linewidth=0.9, zorder=1)
-    ax.plot(time, np.degrees(motion.state(time).angle), linewidth=1.6)
+    ax.plot(time, np.degrees(motion.state(time).angle), color=BLUE, linewidth=1.6)
     period = f", period {motion.period:.4g} s" if 0 < motion.period < np.inf else ""
     ax.set(xlabel="time (s)", ylabel="angle (degrees)", title=f"{motion.regime}{period}")
     return ax

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The parts that all pictures share: colours, frames and units. In axes of the caller colours and units are the same."""
+"""The parts that all pictures share: colours, frames and units. Axes that the caller gives keep their frames."""
 
 from __future__ import annotations
 

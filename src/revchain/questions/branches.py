@@ -177,9 +177,9 @@ def branches(
         ``complete``; `steady_shapes` can prove a list at one speed.
 
         With ``hanging_only=False`` the branches of the system's own posture come first, then those of each other posture.
-        `Branch.system` is the `Rig` with the links of the posture inverted, and ``mode`` counts its modes. ``complete`` is
-        then false, except for a chain of one link: the proof that no loop is missing between two speeds is for links
-        that hang.
+        `Branch.system` is the `Rig` with the links of the posture inverted (for its own posture the given system), and
+        ``mode`` counts its modes. ``complete`` is then false, except for a chain of one link: the proof that no loop is
+        missing between two speeds is for links that hang.
 
     Raises
     ------

@@ -111,9 +111,9 @@ def steady_shapes(
         the axis and the ends; else ``undecided`` gives the inclinations of the lowest link at which others in that plane
         may start (none if `prove` is false). The proof usually succeeds for one half wave of up to 9 links with ``l <= a``
         and mass at every pin; with more links or half waves it often leaves a part undecided. Only shapes in that plane are
-        searched for. If both ends are off the axis, others are common, and ``complete`` is false. Otherwise they have a
-        link that no pull turns. Held cords: ``complete`` is true for a span without gravity, which has one shape for each
-        number of half waves.
+        searched for. If both ends are off the axis, others are common, and ``complete`` is false. Otherwise a shape out of
+        the plane has a link that could lean to any side under no load. Held cords: ``complete`` is true for a span without
+        gravity, which has one shape for each number of half waves.
 
     Raises
     ------

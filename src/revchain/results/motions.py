@@ -329,9 +329,10 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
         fact=True,
     )
     sway: Field[Floats | None] = Field(
-        "Where there is an `error_estimate`: a bound of the distance of each pin from below the support after `motion_end`, "
-        "m, shape (N + 1,), to 1 %; the last is that of the support from its resting place. Amplitudes are added where "
-        "the damping ratio is below 0.05. Infinite if the motion grows. Else None.",
+        "Where there is an `error_estimate`: the largest distance of each pin from below the support after `motion_end`, m, "
+        "shape (N + 1,), seen at 400 instants, to 1 %; the last is that of the support from its resting place. Motions with a "
+        "damping ratio below 0.05 count with their whole amplitudes, so that it may be too large. Infinite if the motion "
+        "grows. Else None.",
         lambda s: None,
         part=True,
         fact=True,

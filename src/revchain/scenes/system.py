@@ -418,7 +418,7 @@ def has_air_drag(scene: Tables) -> bool:
 
 
 def air_drag(scene: Tables, density: float | None, numbers: Numbers) -> Drag | None:
-    """The drag of air on the links of a scene; None if there is none or it was refused, which is noted."""
+    """The drag of air on the links of a scene; None if there is none, or if an error has been noted."""
     whole = scene.uniform_chain if scene.tapered_chain is UNSET else scene.tapered_chain
     if isinstance(whole, UnsetType):
         links = scene._bodies()
