@@ -53,6 +53,10 @@ if grep -qE 'revchain::for_[a-z0-9_]*::.*([Aa]berth|[Ii]nterpolat|[Cc]ondens|mod
   fail 'a program that includes modes.hpp alone carries methods that it did not ask for'
 fi
 
+say 'instruction sets chosen at run time, in a program compiled without optimisation'
+printf '#include <revchain/simd/pack.hpp>\nvoid f(revchain::Pack<double, 8>& y, double x) { y = x * y; }\n' >packs.cpp
+quietly "${CXX:-c++}" -std=c++20 -O0 -DREVCHAIN_DISPATCH -Imoved/include -S packs.cpp -o /dev/null
+
 say 'steady shapes and branches without `thorough`'
 build shapes core -DSOURCES=shapes.cpp -DCMAKE_DISABLE_FIND_PACKAGE_GSL=ON
 shapes/consumer >brief

@@ -22,12 +22,16 @@ using IntegerLike = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_
 #if !defined(REVCHAIN_NO_VECTOR_EXTENSIONS)
 
 // GCC 12 compiles a comparison of 64 bytes, and a fused operation, to one instruction for each
-// number. The built-in functions below are one instruction for the whole register.
+// number. The built-in functions below are one instruction for the whole register. With several
+// targets they need optimisation, which inlines them into functions for their target.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#if defined(REVCHAIN_SEVERAL_TARGETS) || defined(__FMA__)
+#if defined(REVCHAIN_SEVERAL_TARGETS) && defined(__OPTIMIZE__)
+#define REVCHAIN_INLINED_INTO_TARGETS
+#endif
+#if defined(REVCHAIN_INLINED_INTO_TARGETS) || defined(__FMA__)
 #define REVCHAIN_FUSED_INSTRUCTIONS
 #endif
-#if defined(REVCHAIN_SEVERAL_TARGETS) || (defined(__AVX512F__) && defined(__AVX512DQ__))
+#if defined(REVCHAIN_INLINED_INTO_TARGETS) || (defined(__AVX512F__) && defined(__AVX512DQ__))
 #define REVCHAIN_MASK_INSTRUCTIONS
 #endif
 #endif
@@ -197,4 +201,5 @@ struct RegisterOf {
 }  // namespace revchain::detail
 
 #undef REVCHAIN_FUSED_INSTRUCTIONS
+#undef REVCHAIN_INLINED_INTO_TARGETS
 #pragma GCC diagnostic pop
