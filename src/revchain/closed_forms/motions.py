@@ -105,7 +105,7 @@ class GovernorState(NamedTuple):
     angle_rate: FloatOrArray
 
 
-@described(cost="10 microseconds, and 0.1 for each time", source="section 7 (1)-(13)")
+@described(cost="5 microseconds, and 0.1 for each time", source="section 7 (1)-(13)")
 class GovernorMotion(Solved, row="motion", title="GovernorMotion: {self.regime}"):
     """The motion of a link hinged on a turning axis.
 
@@ -208,7 +208,7 @@ class SkippingRope(Solved, row="rope", title="SkippingRope: {self._waves}"):
     raises: If a number is not positive and finite, if too few or too many are given, or if no rope has them: the length
         does not exceed span or slack, the sag is not below half the length of a half wave, the slack is not below twice
         the sag per half wave, or no rope bends so at this speed and tension.
-    notes: Cost: 20 microseconds, and for each point 0.06 by `at` or 0.6 by `at_arc`.
+    notes: Cost: 10 microseconds, and for each point 0.07 by `at` or 0.5 by `at_arc`.
 
     >>> rope = rc.SkippingRope(span=2.0, length=3.0, angular_speed=12.0)
     >>> round(rope.sag, 6), round(rope.tension_in_the_middle, 6)

@@ -75,7 +75,7 @@ class Cord(System):
     -----
     A power is stored as its exponent. A function is stored as piecewise polynomials, to 1e-14 of its largest value on
     each piece, with an estimate of the error of its integral, which the error bounds of the results include. Cost: 15
-    microseconds; with a smooth function 0.4 ms and 1167 calls of it, with a jump that is not in `breaks` about 1800 more.
+    microseconds; with a smooth function 0.2 ms and 1167 calls of it, with a jump that is not in `breaks` about 1800 more.
     Source: Greenhill (1908), section 4; a bob: J. S. Deschaine and B. H. Suits, Eur. J. Phys. 29, 1211 (2008).
 
     Examples
