@@ -8,6 +8,7 @@ import random
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import revchain as rc
@@ -397,6 +398,9 @@ DATA = {
     "gravity of another kind": ({"links": [ONE], "gravity": "9.81 m"}, "gravity: must be an acceleration"),
     "another version": ({"links": [ONE], "schema_version": 3}, "schema_version: must be 2, got 3"),
     "no table at all": ([], "must be a table"),
+    "an array for the scene": (np.zeros(3), "must be a table"),
+    "an array for a link": ({"links": [np.zeros(3)]}, "links[0]: must be a table"),
+    "an array for a system": ({"cord": np.zeros(3)}, "cord: must be a table"),
     "keys that are no text": ({1: 2}, "every key must be text"),
     "spring below 0": ({"links": [ROD], "support": {"stiffness": -2}}, "support.stiffness: must not be negative, got -2"),
     "spring in kg": ({"links": [ROD], "support": {"stiffness": "3 kg"}}, 'support.stiffness: must be a force per length such as "2 kN/m"'),

@@ -240,7 +240,7 @@ def convert(raw: Any, kind: type[Kind], source: str, problems: list[Problem]) ->
     try:
         try:
             converted = msgspec.convert(raw, kind)
-        except msgspec.ValidationError as error:
+        except (msgspec.ValidationError, LookupError) as error:  # an array, asked for a key, raises an IndexError
             converted = _table(raw, kind, "", found)
             found = found or [Problem(0, 0, "", str(error))]
             if converted is msgspec.UNSET:
@@ -299,6 +299,8 @@ def _value(raw: Any, annotation: Any, key: str, found: list[Problem]) -> Any:
         found.append(Problem(0, 0, key + path.rstrip("`"), _reason(sentence, key, raw, path.rstrip("`"), annotation)))
     except (RecursionError, ValueError) as error:
         found.append(Problem(0, 0, key, f"cannot be read: {error}"))
+    except LookupError:
+        found.append(Problem(0, 0, key, f"must be a table, got {written(raw)}"))
     return msgspec.UNSET
 
 
