@@ -50,8 +50,7 @@ class TransientMotion {
         result_.offset.resize(rows, pins), result_.velocity.resize(rows, pins);
         result_.error_estimate.resize(rows);
         superpose();
-        const bool lost = rows > 0 ? !(loss_ < 1e-9) : !motions_.all_found();
-        if (motions_.system().inertia && lost) {
+        if (motions_.system().inertia && (rows > 0 ? !(loss_ < 1e-9) : !motions_.all_found())) {
             const Transient sum = result_;
             step_through();
             const auto most = [](const Transient& of) { return of.error_estimate.maxCoeff(); };
@@ -209,9 +208,10 @@ class TransientMotion {
                 return after(state, scaled_[k], S(t) * pace_ - scaled_[k].begin);
             };
             if (k == 0) {
-                put(state, scaled_[0], 0, result_.start, v, size);
-                // With inertia everywhere nothing snaps, and a sum of motions would lose digits.
-                if (motions_.system().inertia) result_.start = motions_.offsets_of(q_) * length_;
+                if (motions_.system().inertia)  // nothing snaps; a sum of motions would lose digits
+                    result_.start = motions_.offsets_of(q_) * length_;
+                else
+                    put(state, scaled_[0], 0, result_.start, v, size);
                 add_support(piece, 0, result_.start, v);
                 set_projected();
             }

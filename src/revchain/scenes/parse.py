@@ -299,8 +299,8 @@ def _value(raw: Any, annotation: Any, key: str, found: list[Problem]) -> Any:
         found.append(Problem(0, 0, key + path.rstrip("`"), _reason(sentence, key, raw, path.rstrip("`"), annotation)))
     except (RecursionError, ValueError) as error:
         found.append(Problem(0, 0, key, f"cannot be read: {error}"))
-    except LookupError:
-        found.append(Problem(0, 0, key, f"must be a table, got {written(raw)}"))
+    except LookupError:  # as in `convert`
+        return _table(raw, kind, key, found)
     return msgspec.UNSET
 
 
