@@ -964,6 +964,22 @@ def test_quantities_of_pins_and_of_exponents():
     assert rc.sweep(given).coords["links[0].pin.stiffness"].attrs["units"] == "N m/rad"
     cord = {"scene": {"cord": {"mass": 1, "length": 1}}, "vary": {"cord.density": {"values": [0.0, 1.0]}}}
     assert "units" not in rc.sweep(rc.Study.from_dict(cord)).coords["cord.density"].attrs
+    tapered = {"tapered_chain": {"count": 3, "length": 1, "mass": 1, "exponent": 0}}
+    for scene, key in ((tapered, "tapered_chain.exponent"), (cord["scene"], "cord.density")):
+        for values in ({"values": ["2 m"]}, {"from": "1 kg", "to": 2, "steps": 2}, {"uniform": [0, "50 %/s"]}):
+            with pytest.raises(rc.SceneError, match="must be a number without a unit, got"):
+                rc.Study.from_dict({"scene": scene, "vary": {key: values}, "samples": 2})
+
+
+def test_values_of_a_wrong_kind_are_told_what_they_may_be():
+    tapered = {"tapered_chain": {"count": 3, "length": 1, "mass": 1, "exponent": 0}}
+    for values, words in (
+        ({"from": True, "to": 2, "steps": 2}, "from: must be a number or text, got true"),
+        ({"uniform": [True, 1]}, r"uniform\[0\]: must be a number or text, got true"),
+        ({"values": [[1]]}, r"values\[0\]: must be true or false, a number or text, got \[1\]"),
+    ):
+        with pytest.raises(rc.SceneError, match=words):
+            rc.Study.from_dict({"scene": tapered, "vary": {"tapered_chain.mass": values}})
 
 
 def test_modes_of_a_held_chain_whose_pins_have_mass_at_the_points_alone():

@@ -409,9 +409,12 @@ def _reason(sentence: str, key: str, raw: Any, path: str, annotation: Any) -> st
         one = isinstance(value, int | float | str) and not (isinstance(value, bool) or _is_number(annotation))
         write = f": write [{written(value)}]" if one else ""
         return f"must be a {'number or a ' if _is_number(annotation) else ''}list of numbers{got}{write}"
-    names = {"object": "a table", "array": "a list", "float": "a number", "int": "a whole number", "str": "text"}
-    expected = re.fullmatch(r"Expected `(\w+)(?: \| null)?`.*", sentence)
-    return f"must be {names.get(expected[1], 'true or false') if expected else 'something else'}{got}"
+    names = {"bool": "true or false", "int": "a whole number", "float": "a number", "str": "text", "array": "a list", "object": "a table"}
+    expected = re.match(r"Expected `([^`]+)`", sentence)
+    kinds = set(expected[1].split(" | ")) if expected else set()
+    names = {kind: words for kind, words in names.items() if kind in kinds and not (kind == "int" and "float" in kinds)}
+    *some, last = names.values() or ("something else",)
+    return f"must be {', '.join(some)}{' or ' if some else ''}{last}{got}"
 
 
 _EXAMPLES = {"time": '["0 s", "2 s"]', "velocity": '["0 m/s", "1 m/s"]', "offset": '["0 m", "1 m"]', "force": '["0 N", "1 N"]'}

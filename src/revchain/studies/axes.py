@@ -77,8 +77,7 @@ class Axis:
     @property
     def unit(self) -> str:
         """The SI unit of the values; empty for words, whole numbers and exponents."""
-        is_exponent = self.path[-1] == "exponent" or self.path == ("cord", "density")
-        return SI[quantity_of(self.path)][0] if self.is_number and not is_exponent else ""
+        return SI[quantity_of(self.path)][0] if self.is_number else ""
 
     def examples(self) -> list[Any]:
         """Values to check: the ends of a grid, all its words, or the middle of random numbers."""
@@ -183,6 +182,8 @@ def _why_not_varied(text: str, path: Path) -> str:
 
 def quantity_of(path: Path) -> str:
     """The quantity of the number at a path, a key of `systems.units.SI`; a length if the name is not one."""
+    if path == ("cord", "density"):
+        return "exponent"
     if len(path) > 1 and path[-2] == "pin":
         return f"pin_{path[-1]}"
     return next((step for step in reversed(path) if isinstance(step, str) and step in SI), "length")

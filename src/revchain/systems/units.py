@@ -38,6 +38,7 @@ _KINDS = {
     "an angular momentum": ("kg m^2/s", "0.5 N m s"),
     "a moment of inertia": ("kg m^2", "0.1 kg m^2"),
     "a fraction": ("", "1 %"),
+    "a number without a unit": ("", ""),
 }
 _NAMES = {
     "a length": "length diameter centroid radius_of_gyration pendulum_length length_in_proportion conical_height min_conical_height span radius "
@@ -60,6 +61,7 @@ _NAMES = {
     "an angular momentum": "momentum",
     "a moment of inertia": "axial_moment shaft_inertia",
     "a fraction": "rtol coefficient body_coefficient",
+    "a number without a unit": "exponent",
 }
 SI = {name: (_KINDS[kind][0], kind, _KINDS[kind][1]) for kind, names in _NAMES.items() for name in names.split()}
 """SI unit, kind and an example of each quantity."""
@@ -176,17 +178,21 @@ def si_value(text: str, quantity: str) -> float:
     if len(text) <= 100 and re.match(PATTERN, text) is None and (parts := with_tolerance(text)) is not None and parts[0]:
         where = "in uncertainty, in fit, or as uniform or normal in a study"
         raise ValueError(f'must be a number without a tolerance, got "{text}"; write "{parts[0]}" here, and the tolerance {where}')
+    _, kind, example = SI[quantity]
+    wanted = f'must be a number, or a number and its unit such as "{example}"' if example else f"must be {kind}"
     if len(text) > 100 or re.match(PATTERN, text) is None:
         point = re.sub(r"(?<=\d),(?=\d)", ".", text, count=1)
         number = re.fullmatch(_NUMBER, point.strip())
         right = point.strip() if number else f'"{point}"' if re.match(PATTERN, point) else ""
         hint = f"; write {right} without quotes" if right else ""
         hint = f"; the decimal mark is a point: write {right}" if right and point != text else hint
-        raise ValueError(f'must be a number, or a number and its unit such as "{SI[quantity][2]}", got "{text}"{hint}')
+        raise ValueError(f'{wanted}, got "{text}"{hint}')
+    if not example:
+        raise ValueError(f'{wanted}, got "{text}"')
     number = re.match(rf"\s*{_NUMBER}", text)
     assert number is not None
     unit = text[number.end() :].strip()
-    if SI[quantity][1] == "an angular speed" and (bare := re.sub(r"\s", "", unit)) in (*_TURNS, *_UNCLEAR):
+    if kind == "an angular speed" and (bare := re.sub(r"\s", "", unit)) in (*_TURNS, *_UNCLEAR):
         if bare in _UNCLEAR:
             each = number.group().strip()
             raise ValueError(f'may be turns or radians per second: write "{each} Hz" or "{each} rad/s", got "{text}"')
@@ -213,7 +219,8 @@ def _converted(given: Any, quantity: str, text: str = "") -> Any:
         hint = "; give it as mass" if quantity.endswith("weight") and given.is_compatible_with("kg") else ""
         by_weight = quantity.endswith("mass") and quantity.replace("mass", "weight") in SI
         hint = "; give it as weight" if by_weight and given.is_compatible_with("N") else hint
-        raise ValueError(f'must be {kind} such as "{example}", got "{text or given}"{hint}')
+        such = f' such as "{example}"' if example else ""
+        raise ValueError(f'must be {kind}{such}, got "{text or given}"{hint}')
     number = given.m_as(unit or "dimensionless")
     if kind == "an angular speed" and "hertz" in str(given.units):
         number = 2 * math.pi * number  # pint reads Hz as rad/s; here it is one turn per second
