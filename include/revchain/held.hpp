@@ -112,7 +112,7 @@ struct HeldCordShapesOptions {
 /// this tension at the upper end. Other shapes of a chain come last among those with as many half
 /// waves.
 ///
-/// `missing` lists the numbers of half waves without a shape. `complete` is true if it is proved
+/// `missing` lists the numbers of half waves with which none was found. `complete` is true if it is proved
 /// that there is no other such shape with 1 to `max_half_waves` half waves in the plane of the axis
 /// and the ends; others are not searched. For a cord this is possible only at a span without
 /// gravity. Otherwise, for a chain and with `prove`, `undecided` has the ranges of the lowest

@@ -40,9 +40,10 @@ struct GovernorData {
 
 /// The governor at one inclination of its arms.
 struct GovernorPoint {
-    double inclination = 0;                ///< of the arms, outwards
-    double speed = 0;                      ///< of equilibrium, rad/s; NaN or infinite if none
-    double low_speed = 0, high_speed = 0;  ///< with friction: the sleeve stays between these
+    double inclination = 0;  ///< of the arms, outwards
+    double speed = 0;        ///< of equilibrium, rad/s; NaN or infinite if none
+    /// With friction the sleeve stays between these speeds; 0: also at rest; NaN if at none.
+    double low_speed = 0, high_speed = 0;
     double ball_radius = 0;
     double height = 0;    ///< of the cone: from the ball to where its arm meets the axis
     double lift = 0;      ///< of the sleeve, from inclination 0

@@ -32,8 +32,7 @@ enum class StabilityFrame {
 /// Whether a small disturbance of a steady shape grows.
 enum class Verdict {
     minimum,            ///< it stays small: the energy is least (free: at fixed angular momentum)
-    spectrally_stable,  ///< no minimum, but gyroscopic forces keep it from growing, to first
-                        ///< order; with dashpots: it decays
+    spectrally_stable,  ///< no minimum, but gyroscopic forces keep it from growing, to first order
     unstable,           ///< it grows
     undecided,          ///< unknown: within the errors of the exponents, or in a fluid that turns
 };
@@ -136,8 +135,8 @@ struct RigStabilityOptions {
 /// otherwise the verdict is undecided and the growth rate NaN.
 /// With dashpots at pins the exponents are damped, of any strength; `internal_damping` is what a
 /// little more adds. Dashpots act on the rates at which links turn against one another: none in the
-/// steady motion itself. A shape of which every disturbance decays, and that is no minimum, is
-/// `spectrally_stable`.
+/// steady motion itself. They let a shape that is no minimum grow: it is unstable or, within the
+/// errors, undecided.
 /// Throws InvalidArgument as above, for a pin or a motion without mass (unless the fluid turns), a
 /// flywheel or dashpots at a massless upper end, springs at pins, linear drag, a dashpot at the
 /// support and a trolley that rolls freely. Also throws in the free frame for dashpots together

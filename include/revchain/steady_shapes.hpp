@@ -103,31 +103,31 @@ struct SteadyShapes {
 /// inclinations under one load (lambda <= W h (l - a)/(W h + a S): pendulum length l > a, or a
 /// centroid above the upper pin), are followed along each inclination. Krawczyk's test then decides
 /// boxes of all tangents. Accuracy: every inclination is within `error_bound`, proved, mostly
-/// 2.3e-16 (4.4e-16 if links stand); measured errors are at most 2 ulp of the inclination. Without
-/// `thorough` bounds are wider if links lie within 1e-5 of the horizontal: 1e-14 for three plummets
-/// at 1e-5 of a link's length, 6e-7 at 1e-7. `complete` is proved too. If it is false, `undecided`
-/// has the ranges where shapes may be missing: at exactly a critical speed or a fold, or if the
-/// budget is used up, as for chains of 15 plummets or more at heights near 1/1000 of their length.
-/// It is also false, even with nothing undecided, if a link between the lowest and topmost could
-/// lean to any side under no load: lambda (W h + a S) <= W h (l - a), or <= W h (a - l) if it may
-/// stand. There may then be shapes that lie in no plane with the axis; these are not searched.
-/// If each link has one inclination for its load, a scan adds the shapes it finds there. At heights
-/// below 2^-50 (9e-16) of the longest length (rounded up to a power of 2) nothing is listed and
-/// `complete` is false. There tensions would lose their digits: double-double resolves offsets to
-/// 2^-104 of that length, and a sideways pull is an offset over the height. Cost for equal
-/// plummets: the 46 shapes of eight at 1/200 of their length take 5 ms, the 14 shapes of 1000 at
-/// 1/500 of their length 2 s. In any posture, at 1/1000 of the length, the 18 shapes of three take
-/// 2 ms, the 64 of four 12 ms. Threads share the refinement of shapes, about half of the cost,
-/// with `hanging_only` if each link has one inclination for its load; otherwise they share nothing.
-/// Results are bitwise the same for any number of threads.
-/// Above the first critical height there is no shape in any posture. Proof: let s be the sines of
-/// the inclinations d, G their mass matrix, kappa = W h + a S, D = lambda diag(kappa |sec d|) > G,
-/// and E = diag(+-1) the postures. Then E D s = G s gives, with w = D^1/2 s, |E w| = |D^-1/2 G
-/// D^-1/2 w| < |w|: only w = 0 is possible. An angular speed n gives the height g/n^2, formed in
-/// double-double.
-/// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, for
-/// gravity not positive and weights more than 1e123 apart. Also throws for links that stand or may
-/// hang at several inclinations, unless `thorough` is given.
+/// 2.3e-16 (4.4e-16 if links stand); measured errors are at most 2 ulp of the inclination, or 1e-27
+/// times `condition`, which is large near a critical height. Without `thorough` bounds are wider if
+/// links lie within 1e-5 of the horizontal: 1e-14 for three plummets at 1e-5 of a link's length,
+/// 6e-7 at 1e-7. `complete` is proved too. If it is false, `undecided` has the ranges where shapes
+/// may be missing: at exactly a critical speed or a fold, or if the budget is used up, as for
+/// chains of 15 plummets or more at heights near 1/1000 of their length. It is also false, even
+/// with nothing undecided, if a link between the lowest and topmost could lean to any side under no
+/// load: lambda (W h + a S) <= W h (l - a), or <= W h (a - l) if it may stand. There may then be
+/// shapes that lie in no plane with the axis; these are not searched. If each link has one
+/// inclination for its load, a scan adds the shapes it finds there. At heights below 2^-50 (9e-16)
+/// of the longest length (rounded up to a power of 2) nothing is listed and `complete` is false.
+/// There tensions would lose their digits: double-double resolves offsets to 2^-104 of that length,
+/// and a sideways pull is an offset over the height. Cost for equal plummets: the 46 shapes of
+/// eight at 1/200 of their length take 5 ms, the 14 shapes of 1000 at 1/500 of their length 2 s. In
+/// any posture, at 1/1000 of the length, the 18 shapes of three take 2 ms, the 64 of four 12 ms.
+/// Threads share the refinement of shapes, about half of the cost, with `hanging_only` if each link
+/// has one inclination for its load; otherwise they share nothing. Results are bitwise the same for
+/// any number of threads. Above the first critical height there is no shape in any posture. Proof:
+/// let s be the sines of the inclinations d, G their mass matrix, kappa = W h + a S, D = lambda
+/// diag(kappa |sec d|) > G, and E = diag(+-1) the postures. Then E D s = G s gives, with w = D^1/2
+/// s, |E w| = |D^-1/2 G D^-1/2 w| < |w|: only w = 0 is possible. An angular speed n gives the
+/// height g/n^2, formed in double-double. Throws InvalidArgument unless exactly one of height and
+/// speed is given, positive and finite, for gravity not positive and weights more than 1e123 apart.
+/// Also throws for links that stand or may hang at several inclinations, unless `thorough` is
+/// given.
 REVCHAIN_DECLARE
 [[nodiscard]] SteadyShapes steady_shapes(const Chain<double>& chain,
                                          const SteadyShapesOptions& options);

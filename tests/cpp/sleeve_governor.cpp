@@ -101,7 +101,7 @@ TEST_CASE("Porter's governor: numbers of text books", "[public]") {
 
 TEST_CASE("random governors: speeds by forces, friction, all equilibria", "[public]") {
     support::Random random(1);
-    Index compared = 0, roots = 0;
+    Index compared = 0, roots = 0, at_rest = 0;
     for (int k = 0; k < 10000; ++k) {
         const GovernorData d = random_governor(random);
         const SleeveGovernor governor(d);
@@ -111,10 +111,15 @@ TEST_CASE("random governors: speeds by forces, friction, all equilibria", "[publ
         const GovernorPoint& p = *reached;
         if (p.ball_radius < 0.05 * d.arm) continue;
         CAPTURE(k, angle, p.lift, d.sleeve_arm, d.lower_arm, d.pivot_offset, d.arm);
-        for (const auto& [speed, friction] :
-             {std::pair(p.speed, 0.0), {p.low_speed, -d.friction}, {p.high_speed, d.friction}}) {
-            const double square = square_by_forces(d, angle, p.lift, friction);
-            if (square <= 0) {
+        // friction lets the sleeve stay from the one square to the other; where it falls as the arms rise, the other way
+        const auto [low, high] = std::minmax(
+            {square_by_forces(d, angle, p.lift, -d.friction), square_by_forces(d, angle, p.lift, d.friction)});
+        for (const auto& [speed, square] :
+             {std::pair(p.speed, square_by_forces(d, angle, p.lift, 0)), {p.low_speed, low}, {p.high_speed, high}}) {
+            if (square == low && square <= 0 && high > 0) {
+                CHECK(speed == 0);  // friction holds the sleeve at rest, too
+                ++at_rest;
+            } else if (square <= 0) {
                 CHECK(std::isnan(speed));
             } else {
                 REQUIRE(std::abs(speed * speed / square - 1) <= 1e-12);
@@ -153,6 +158,18 @@ TEST_CASE("random governors: speeds by forces, friction, all equilibria", "[publ
     }
     CHECK(compared > 20000);
     CHECK(roots > 900);
+    CHECK(at_rest > 3);
+}
+
+TEST_CASE("friction in the axis is the limit of that beside it", "[public]") {
+    const SleeveGovernor governor(
+        {.ball_mass = 1, .arm = 0.3, .lower_arm = 0.35, .sleeve_mass = 0.5, .friction = 3, .gravity = 9.81});
+    const GovernorPoint in = governor.at(0), beside = governor.at(1e-4);
+    CHECK(std::abs(in.low_speed / beside.low_speed - 1) < 1e-7);
+    CHECK(std::abs(in.high_speed / beside.high_speed - 1) < 1e-7);
+    CHECK(in.low_speed < 0.95 * in.speed);
+    CHECK(in.speed < 0.95 * in.high_speed);
+    CHECK(governor.effort(0, 0.01).effort > 0);
 }
 
 TEST_CASE("periods are those of oscillations integrated in time", "[public]") {

@@ -141,11 +141,16 @@ fi
 grep -q 'error.*revchain needs C++20' log || { cat log; fail 'C++17: no message'; }
 [[ $(grep -c 'error' log) -le 4 ]] || { cat log; fail 'C++17: more errors than one message'; }
 
-say '-ffast-math is refused'
-# shellcheck disable=SC2046
-if "${CXX:-c++}" -std=c++20 -ffast-math -fsyntax-only "$here/light/main.cpp" $(pkg-config --cflags revchain) 2>log; then
-  fail 'compiled with -ffast-math'
-fi
-grep -qiE '#error.*fast.?math' log || { cat log; fail '-ffast-math is refused, but not by our #error'; }
+say '-ffast-math and its parts are refused'
+fast=(-ffast-math -ffinite-math-only)
+"${CXX:-c++}" -dM -E -x c++ /dev/null | grep -q __clang__ ||  # Clang does not tell of these
+  fast+=(-freciprocal-math '-fassociative-math -fno-signed-zeros -fno-trapping-math')
+for flag in "${fast[@]}"; do
+  # shellcheck disable=SC2046,SC2086
+  if "${CXX:-c++}" -std=c++20 $flag -fsyntax-only "$here/light/main.cpp" $(pkg-config --cflags revchain) 2>log; then
+    fail "compiled with $flag"
+  fi
+  grep -qiE '#error.*fast.?math' log || { cat log; fail "$flag is refused, but not by our #error"; }
+done
 
 echo "install: $checked kinds of consumers checked"

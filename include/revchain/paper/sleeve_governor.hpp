@@ -133,17 +133,20 @@ inline GovernorPoint SleeveGovernor::at(double inclination, std::optional<double
     GovernorPoint p;
     p.inclination = inclination, p.ball_radius = m.radius.value, p.lift = m.sleeve.value;
     p.height = d.arm * c + (d.pivot_offset == 0 ? 0 : d.pivot_offset * c / s);
-    const auto speed = [&](double friction) {
+    const auto square_at = [&](double friction) {
+        const double slope = m.potential.slope + friction * m.sleeve.slope;
         // Both sides vanish in the axis: there the ratio is that of the next derivatives.
-        const bool still =
-            m.inertia.slope == 0 && m.potential.slope + friction * m.sleeve.slope == 0;
-        const double square =
-            still ? 2 * m.potential.bend / m.inertia.bend
-                  : 2 * (m.potential.slope + friction * m.sleeve.slope) / m.inertia.slope;
-        return square >= 0 ? std::sqrt(square) : std::numeric_limits<double>::quiet_NaN();
+        if (m.inertia.slope == 0 && slope == 0)
+            return 2 * (m.potential.bend + friction * m.sleeve.bend) / m.inertia.bend;
+        return 2 * slope / m.inertia.slope;
     };
-    p.speed = turned.value_or(speed(0));
-    p.low_speed = speed(-d.friction), p.high_speed = speed(d.friction);
+    const auto root = [](double x) {
+        return x >= 0 ? std::sqrt(x) : std::numeric_limits<double>::quiet_NaN();
+    };
+    const double one = square_at(-d.friction), two = square_at(d.friction);
+    p.speed = turned.value_or(root(square_at(0)));
+    p.high_speed = root(std::max(one, two));
+    p.low_speed = p.high_speed >= 0 && std::min(one, two) < 0 ? 0 : root(std::min(one, two));
     const double square = p.speed * p.speed;
     double pull = m.potential.bend - square / 2 * m.inertia.bend;
     p.stable = pull > 0;
@@ -247,8 +250,9 @@ inline GovernorEffort SleeveGovernor::effort(double inclination, double change) 
         Motion::of<double>(d, std::sin(inclination), std::cos(inclination), Motion::start(d));
     GovernorEffort result;
     // The force that holds the sleeve at the new speed; it falls to 0 while the sleeve is lifted.
-    result.effort = now.speed * now.speed * (change + change * change / 2) * m.inertia.slope /
-                    (2 * m.sleeve.slope);
+    const bool still = m.inertia.slope == 0 && m.sleeve.slope == 0;  // in the axis: the limit
+    const double ratio = still ? m.inertia.bend / m.sleeve.bend : m.inertia.slope / m.sleeve.slope;
+    result.effort = now.speed * now.speed * (change + change * change / 2) * ratio / 2;
     result.lift = result.power = std::numeric_limits<double>::quiet_NaN();
     for (const GovernorPoint& next : equilibria((1 + change) * now.speed))
         if (next.stable && next.inclination > inclination) {

@@ -39,7 +39,7 @@ class GovernorPoints(NamedTuple):
     """A governor at one or more inclinations of its arms, from the vertical outwards: downward, Hartnell's upward.
 
     `inclination`: of the arms, rad. `angular_speed`: of equilibrium, rad/s; NaN or infinite if there is none. `low_speed`,
-    `high_speed`: between these friction holds the sleeve. `ball_radius`: distance of the balls from the axis, m.
+    `high_speed`: between these friction holds the sleeve; NaN if at no speed. `ball_radius`: distance of the balls from the axis, m.
     `height`: from the balls up (Hartnell's: down) to where their arms meet the axis, m. `lift`: of the sleeve, from
     inclination 0, m. `stable`: whether the arms return when disturbed at constant speed. `period`: of small oscillations,
     s; NaN if they grow.
@@ -105,7 +105,7 @@ class GovernorEquilibria(Result, Listed[GovernorPoints], row="point", title="{su
         "Distance from the balls up (Hartnell's: down) to where their arms meet the axis, m, shape (E,).", axes=(), unit="m"
     )
     low_speed: Field[Floats] = Field(
-        "Lowest speed at which friction holds the sleeve there, rad/s, shape (E,).", axes=(), unit="rad/s"
+        "Lowest speed at which friction holds the sleeve there, rad/s, shape (E,); 0 if also at rest.", axes=(), unit="rad/s"
     )
     high_speed: Field[Floats] = Field(
         "Highest speed at which friction holds the sleeve there, rad/s, shape (E,).", axes=(), unit="rad/s"
@@ -298,20 +298,13 @@ class SleeveGovernor(Solved, row="point"):
         """
         caller = "revchain.SleeveGovernor.effort"
         angle, rise = real(caller, "inclination", inclination), one_positive(caller, "change", change)
-        given: dict[str, Any] = self._given
-        if not (given["lower_arm"] or given["sleeve_arm"]):
+        if not (self._given["lower_arm"] or self._given["sleeve_arm"]):
             raise ValueError(f"{caller}: needs a sleeve: give the governor lower_arm or sleeve_arm")
         speed = float(self.at(angle).angular_speed)
         if not 0 < speed < math.inf:
             must = "inclination must have an equilibrium at a speed above 0"
             raise ValueError(f"{caller}: {must}, got {angle:g} with speed {speed:g}")
-        effort, lift, power = self._found().effort(angle, rise)
-        if math.isnan(effort):  # in the axis both the moment of the balls and the way of the sleeve vanish to first order
-            joint = given["joint"] or given["arm"]
-            effort = speed**2 * (rise + rise**2 / 2) * given["balls"] * given["ball_mass"] * given["arm"] ** 2
-            effort /= joint + joint**2 / given["lower_arm"]
-            power = effort * lift
-        return GovernorEffort(effort, lift, power)
+        return GovernorEffort(*self._found().effort(angle, rise))
 
     def _sheet(self, brief: bool = False) -> Sheet:
         low, high = (self._given[name] for name in _STOPS)

@@ -106,7 +106,7 @@ def steady_shapes(
         one that is reached from the nearly straight chain without gravity, as the ends approach and gravity then grows,
         comes first. Each link points to where the load on it turns it back. Of two mirror images the one whose lowest link
         leads outwards is given; ends off the axis have no mirror images. Half waves are counted about the line between the
-        ends (with springs: between their rest positions). ``missing`` lists the half waves without a shape. Held chains:
+        ends (with springs: between their rest positions). ``missing`` lists the half waves with which none was found. Held chains:
         ``complete`` is true if it is proved that there are no other shapes with these numbers of half waves in the plane of
         the axis and the ends; else ``undecided`` gives the inclinations of the lowest link at which others in that plane
         may start (none if `prove` is false). The proof usually succeeds for one half wave of up to 9 links with ``l <= a``

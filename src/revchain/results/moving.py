@@ -114,8 +114,8 @@ class Moving:
         Returns
         -------
         object
-            The view, which a notebook shows if the call is the last line of a cell. It needs no connection, and still
-            works when the notebook is opened without Python.
+            The view, which a notebook shows if the call is the last line of a cell. It needs neither
+            network nor kernel; Jupyter shows it in trusted notebooks only.
 
         Raises
         ------

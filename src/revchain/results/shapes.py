@@ -718,7 +718,7 @@ class SteadyShapes(Results[SteadyShape], Moving, row="shape", title="{_heading}"
         fact=True,
     )
     missing: Field[tuple[int, ...]] = Field(
-        "For a held system: numbers of half waves without a shape, up to `max_half_waves`.", fact=True
+        "For a held system: numbers of half waves with which none was found, up to `max_half_waves`.", fact=True
     )
     mode: Field[int | None] = Field("Number of the mode whose branch was searched; None if all shapes were.", fact=True)
     cells: Field[int] = Field("Number of parts of the range that were examined.")

@@ -192,12 +192,12 @@ class Cord(System):
 
     @property
     def mass(self) -> float:
-        """Mass without the tip, kg; an AttributeError if the cord was given by weight."""
+        """Mass of the cord without tip and point masses, kg; an AttributeError if the cord was given by weight."""
         return self._measured("mass", self._compiled.weight)
 
     @property
     def weight(self) -> float:
-        """Weight without the tip; an AttributeError if the cord was given by mass."""
+        """Weight of the cord without tip and point masses; an AttributeError if the cord was given by mass."""
         return self._measured("weight", self._compiled.weight)
 
     @property

@@ -64,7 +64,7 @@ std::optional<Judgement> judged_damped_in(StabilityFrame frame, const DisturbedI
         const double error =
             std::abs(step) + safety * (4 * 0x1p-52 * given + rounding * computed) / std::abs(slope);
         const auto turned =
-            rounded(s * (bilinear(x, d.bending, x, j)) * s - bilinear(Y, d.swivelling, Y, j));
+            rounded(s * (bilinear(x, d.bending, x, j))*s - bilinear(Y, d.swivelling, Y, j));
         const auto dragged =
             rounded(s * s * bilinear(x, d.drag_in_plane, x, j) -
                     two * bilinear(x, d.drag_coupling, Y, j) - bilinear(Y, d.drag_across, Y, j));
@@ -75,19 +75,15 @@ std::optional<Judgement> judged_damped_in(StabilityFrame frame, const DisturbedI
         result.margin = std::max(result.margin, error);
         largest = std::max(largest, far);
     }
-    bool grows = false, decays = true;
+    bool grows = false;
     const double lost = 5e-11 * std::max(1.0, as_double(count) / 32);
     for (const JudgedMode& mode : list) {
         grows = grows || mode.exponent.real() > mode.error;
-        decays = decays && mode.exponent.real() < -mode.error;
         judgement.is_spoilt |=
             mode.error > lost * std::min(largest, 100 * std::max(1.0, std::abs(mode.exponent)));
     }
     store(result, std::move(list));
-    set_verdict(result, framed, d,
-                grows    ? Verdict::unstable
-                : decays ? Verdict::spectrally_stable
-                         : Verdict::undecided);
+    set_verdict(result, framed, d, grows ? Verdict::unstable : Verdict::undecided);
     return judgement;
 }
 
