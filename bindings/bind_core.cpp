@@ -23,9 +23,12 @@ void interrupt() {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
-/// The message of a wrong call, its function named as in Python: "revchain::Chain: ..." is "revchain.Chain: ...".
+/// The message of a wrong call, its function named as in Python: "revchain::analytic::SkippingRope: ..." is
+/// "revchain.SkippingRope: ...".
 std::string in_python(std::string message) {
     for (std::size_t at = 0; (at = message.find("::", at)) < message.find(": "); ++at) message.replace(at, 2, ".");
+    constexpr std::string_view formulas = "revchain.analytic.";
+    if (message.starts_with(formulas)) message.erase(0, formulas.size()).insert(0, "revchain.");
     return message;
 }
 

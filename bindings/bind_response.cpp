@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "interrupt.hpp"
 #include "revchain/forced_motion.hpp"
 #include "revchain/response.hpp"
 #include "revchain/swing.hpp"
@@ -114,7 +115,8 @@ py::tuple transient(const Rig& rig, const std::optional<ComplexArray>& offsets,
         if (given == name) options.motion.given = kind;
     if (offsets) options.offset = column(*offsets);
     if (velocities) options.velocity = column(*velocities);
-    const auto found = without_lock([&] { return revchain::transient(rig, options); });
+    const auto found =
+        aside(rig.chain(), nullptr, [rig, options](const Chain<double>&) { return revchain::transient(rig, options); });
     const std::vector<py::ssize_t> shape{found.offset.rows(), found.offset.cols()};
     return py::make_tuple(complex_numbers(found.offset, shape), complex_numbers(found.velocity, shape),
                           to_numpy(found.error_estimate), found.end, to_numpy(found.sway),

@@ -89,7 +89,8 @@ class SleeveGovernor {
     [[nodiscard]] std::vector<GovernorPoint> equilibria(double speed,
                                                         bool* complete = nullptr) const;
     /// The answer to a speed that rises by the fraction `change` from the equilibrium at an
-    /// inclination.
+    /// inclination. Throws InvalidArgument as `at`, without a sleeve, for a change that is not
+    /// positive, and unless there is an equilibrium at a speed above 0.
     [[nodiscard]] GovernorEffort effort(double inclination, double change = 0.01) const;
 
    private:

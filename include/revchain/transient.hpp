@@ -59,12 +59,12 @@ struct Transient {
     Vector<double> sway{};
     Vector<std::complex<double>> exponent{};  ///< (k,) of the motions, see `damped_modes`
     Table<std::complex<double>> shape{};      ///< (k, N+1)
-    /// (k,) If `in_modes`, since the end offsets from the resting place are the sum of amplitude
-    /// shape exp(exponent (t - end)), without momentum its real part.
+    /// (k,) Since the end offsets from the resting place are the sum of amplitude shape
+    /// exp(exponent (t - end)), without momentum its real part. NaN unless `in_modes`
     Vector<std::complex<double>> amplitude{};
     Vector<std::complex<double>> start{};  ///< (N+1) offsets at time 0
     bool projected = false;  ///< whether `start` differs: pins without inertia go where they must
-    bool in_modes = true;    ///< false: motions cannot be told apart, a matrix exponential is used
+    bool in_modes = true;    ///< false: motions cannot be told apart, as at critical damping
 };
 
 /// Motion in time: Q(d/dt) q = load with the matrices of `damped_modes`, as the sum of all damped

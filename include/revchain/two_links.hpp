@@ -263,7 +263,8 @@ template <Real T>
 /// 1) with p = (m l2 + a2)/(m + 1), and (lambda sec d1 - l1) sin d1 = a2 sin d2, §8 (14). Order,
 /// number and method as `two_plummets_shapes`. offset[0] is that of the lower link's centre of
 /// oscillation. Tensions are the magnitudes of the forces at each link's upper pin over the whole
-/// weight. Accuracy: inclinations 8 ulp unless shapes are about to meet (tests/cpp/two_links.cpp).
+/// weight. Accuracy (tests/cpp/two_links.cpp): inclinations 8 ulp unless shapes are about to meet,
+/// tensions 4 ulp of the sizes of their terms.
 /// Throws InvalidArgument as `jointed_links` and `two_plummets_shapes`.
 template <Real T>
 [[nodiscard]] std::vector<PairShape<T>> jointed_links_shapes(const JointedLinks<T>& links,
@@ -281,8 +282,10 @@ template <Real T>
     const T w1 = links.lower_weight / whole, w2 = links.upper_weight / whole;
     for (PairShape<T>& shape : shapes) {
         // offsets of both centroids over the height
-        const T first = shape.offset[0] / height -
-                        links.lower.square_over_centroid() / height * sin(shape.inclination[0]);
+        // from the joint or the centre of oscillation, whichever is nearer
+        const T below = links.lower.centroid, above = links.lower.square_over_centroid();
+        const T first = shape.offset[below < above ? 1 : 0] / height +
+                        (below < above ? below : -above) / height * sin(shape.inclination[0]);
         const T second = links.upper_centroid / height * sin(shape.inclination[1]);
         shape.tension = {w1 * hypot(T(1), first), hypot(T(1), w1 * first + w2 * second)};
     }

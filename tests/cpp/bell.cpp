@@ -133,6 +133,16 @@ TEST_CASE("what is no bell and clapper is refused", "[linear]") {
                     revchain::InvalidArgument);
     const Chain<double> thread({revchain::plummet(1.0, 1.0), revchain::plummet(0.0, 1.0)});
     CHECK_THROWS_AS(revchain::bell_and_clapper(thread), revchain::InvalidArgument);
+    // far joints: a right answer or a refusal
+    const auto at = [&](double joint) { return revchain::bell_and_clapper(Chain<double>::uniform_rods(2), joint); };
+    for (const double sign : {1.0, -1.0}) {
+        CHECK(std::abs(at(sign * 1e-100).conical_height[0] / at(0).conical_height[0] - 1) < 1e-15);
+        for (const double far : {1e-103, 1e-200, 1e104, 1e200})
+            CHECK_THROWS_WITH(at(sign * far), Catch::Matchers::Contains("joint must be 0, or not more than 2^341"));
+        CHECK_THROWS_WITH(at(sign * std::numeric_limits<double>::infinity()), Catch::Matchers::Contains("joint"));
+    }
+    CHECK(at(1e100).conical_height[0] == 1e100);
+    CHECK_THROWS_WITH(at(std::numeric_limits<double>::quiet_NaN()), Catch::Matchers::Contains("joint"));
 }
 
 TEST_CASE("a clapper pinned in the axle or above it", "[public]") {

@@ -115,6 +115,19 @@ TEST_CASE("a fold in the drag is met at one place, from every drag beyond it", "
     }
 }
 
+TEST_CASE("at speeds beyond all bounds there is no fold before the way begins", "[questions]") {
+    const Rig rig(Chain<double>({plummet(9.81, 2.0)}), {.support = carried_round(0.5)});
+    for (const double coefficient : {0.5, 0.0})
+        for (const double speed : {1e8, 5e8, 1e9, 1e12, 1e20, 1e50}) {
+            const DragShape shape =
+                drag_shape(rig, {.coefficient = {coefficient}, .area = {0.05}}, {.angular_speed = speed});
+            CAPTURE(coefficient, speed, to_string(shape.status), shape.factor);
+            CHECK(shape.status != DragStatus::fold);
+            CHECK(shape.folds == 0);
+            CHECK(shape.factor >= 0);
+        }
+}
+
 TEST_CASE("what shapes with drag refuse", "[questions]") {
     using Catch::Matchers::Contains;
     const Chain<double> chain({plummet(1.0, 1.0), plummet(2.0, 1.0)});

@@ -126,6 +126,19 @@ TEST_CASE("a trolley on a spring, pushed at the spring's own speed, stands where
     CHECK(std::abs(found.support_force[0] + 1.0) <= 1e-13);
 }
 
+TEST_CASE("at the speed of the load alone the load balances the drive: the support stands", "[linear]") {
+    for (const double damping : {0.0, 0.5})
+        for (const double stiffness : {0.0, 2.0}) {
+            const Rig absorber(Chain<double>({plummet(1.0, 1.0)}), {.support = {stiffness, 1.0, 0, damping}});
+            const auto pushed = forced_motion(absorber, {.angular_speed = {1.0}, .force = 0.1, .gravity = 1});
+            CAPTURE(damping, stiffness, pushed.offset, pushed.error_estimate);
+            CHECK(pushed.resonant[0] == 0);
+            CHECK(std::abs(pushed.offset(0, 0) + 0.1) <= 1e-15);
+            CHECK(std::abs(pushed.offset(0, 1)) <= 1e-15);
+            CHECK(pushed.error_estimate[0] <= 1e-14);
+        }
+}
+
 TEST_CASE("resonance: none with a dashpot, said without", "[linear]") {
     const Chain<double> chain({plummet(1.0, 1.0)});
     const Rig free(chain, {}), damped(chain, {.pins = {{.damping = 1e-3}}});

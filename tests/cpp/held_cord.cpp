@@ -65,6 +65,10 @@ TEST_CASE("held cord: without gravity it is a string") {
         CHECK(std::abs(m.angular_speed(g)[j] / n - 1) < 1e-15);
         CHECK(m.offset(j, 0.1) == Approx(std::sin(M_PI * static_cast<double>(j + 1) * 0.05)).epsilon(1e-14));
         CHECK(m.offset(j, length) == 0);
+        for (const double s : {-0.1, length * 1.001, std::numeric_limits<double>::quiet_NaN()}) {
+            CHECK_THROWS_AS(m.offset(j, s), revchain::InvalidArgument);
+            CHECK_THROWS_AS(m.slope(j, s), revchain::InvalidArgument);
+        }
         CHECK(m.vertical_points(j)[0] == Approx(length / 2 / static_cast<double>(j + 1)).epsilon(1e-15));
         REQUIRE(m.nodes(j).size() == j);
         for (Index i = 0; i < j; ++i) CHECK(std::abs(m.offset(j, m.nodes(j)[i])) < 1e-15 * 20);

@@ -249,6 +249,9 @@ TEST_CASE("governors: what is refused", "[public]") {
     CHECK_THROWS_WITH(governor.at(2.0), Contains("cannot reach"));
     CHECK_THROWS_WITH(governor.equilibria(-1), Contains("speed"));
     CHECK_THROWS_WITH(governor.effort(0.5, 0), Contains("change"));
+    CHECK_THROWS_WITH(SleeveGovernor({.ball_mass = 1, .arm = 1}).effort(0.5), Contains("effort: needs a sleeve"));
+    CHECK_THROWS_WITH(SleeveGovernor({.ball_mass = 1, .arm = 0.3, .sleeve_arm = 0.1, .spring_force = -100}).effort(0.2),
+                      Contains("effort: inclination must have an equilibrium at a speed above 0"));
 }
 
 TEST_CASE("governor: all but isochronous, the search ends", "[public]") {

@@ -370,6 +370,20 @@ TEST_CASE("sway is what is seen: heavy and critical damping, trolleys that coast
         CHECK(found.sway[0] >= seen * 0.99);
         CHECK(found.sway[0] <= seen * (z < 0.05 ? 1.03 : 1.01));
     }
+    // drag alike on all links damps the first mode critically: it comes back without passing the axis
+    for (const Index n : {3, 6, 12, 24})
+        for (const double off : {0.0, 1e-15, -1e-15, 1e-13}) {
+            const auto rods = Chain<double>::uniform_rods(n, 2.0, g * static_cast<double>(n));
+            const auto mode = revchain::modes(rods, {.count = 1});
+            const double twice = 2 * std::sqrt(g / mode.conical_height[0]) * (1 + off);
+            const Rig slowed(rods, {.drag = std::vector<revchain::Wide<double>>(static_cast<std::size_t>(n), twice)});
+            const Vector<std::complex<double>> offset = (0.01 * mode.shape(0)).head(n).cast<std::complex<double>>();
+            const auto found = transient(slowed, {.offset = offset, .time = {0, 1}, .gravity = g});
+            CAPTURE(n, off, found.in_modes);
+            CHECK(std::abs(found.sway[0] - 0.01) <= 1e-9);
+            CHECK(std::abs(transient(slowed, {.offset = offset, .gravity = g}).sway[0] - 0.01) <= 1e-9);
+            CHECK(found.in_modes == std::isfinite(found.amplitude[0].real()));
+        }
     for (const double damping : {1e-6, 1e-3, 1.0}) {
         const Rig trolley(Chain<double>({plummet(4 * g, 2.0)}), {.support = {0.0, 10 * g, 0, damping}});
         const auto found = transient(trolley, {.time = time, .motion = {Given::force, {0, 1, 2}, {0, 5, 0}}});

@@ -34,6 +34,7 @@ CALLS = {
     "modes in threads": "rc.modes(rc.Chain.uniform_rods(20_000), 'all', threads=2)",
     "dense": "rc.modes(large, method='dense')",
     "modes with dashpots": "rc.modes(rc.Rig(rc.Chain.uniform_rods(1000), pins=rc.Pin(damping=1e-4)), 3)",
+    "swing with dashpots": "rc.swing(rc.Rig(rc.Chain.uniform_rods(1000), pins=rc.Pin(damping=1e-4)), [1.0], offset=np.ones(1000))",
     "recurrence": "rc.modes(rc.Chain.uniform_rods(60_000), 29_999)",
     "conical_heights": "rc.conical_heights(weight=weights, length=1.0)",
     "conical_heights in threads": "rc.conical_heights(weight=weights, length=1.0, threads=2)",

@@ -7,6 +7,7 @@
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/questions/held_tension.hpp"
 #include "revchain/questions/modes.hpp"
+#include "revchain/special/chain_arguments.hpp"
 #include "revchain/special/heavy_chain.hpp"
 #include "revchain/special/tapered_chain.hpp"
 #include "revchain/special/taut_cord.hpp"
@@ -40,8 +41,14 @@ struct StringMode {
         const Wide<double> one = Wide<double>(length) / (two_word_pi * number);
         return (one / taut * one).high;
     }
-    double shape(double s) const { return s < length ? std::sin(waves * s / length) : 0.0; }
-    double slope(double s) const { return waves / length * std::cos(waves * s / length); }
+    double shape(double s) const {
+        analytic::detail::check_place("CordModes::offset", s, length);
+        return s < length ? std::sin(waves * s / length) : 0.0;
+    }
+    double slope(double s) const {
+        analytic::detail::check_place("CordModes::slope", s, length);
+        return waves / length * std::cos(waves * s / length);
+    }
     Vector<double> nodes() const {
         return Vector<double>::LinSpaced(mode + 1, 0, length).segment(1, mode - 1);
     }

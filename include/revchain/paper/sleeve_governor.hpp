@@ -243,9 +243,16 @@ inline std::vector<GovernorPoint> SleeveGovernor::equilibria(double speed, bool*
 
 inline GovernorEffort SleeveGovernor::effort(double inclination, double change) const {
     using namespace detail;
-    require_positive("SleeveGovernor::effort", "change", change);
+    constexpr std::string_view place = "SleeveGovernor::effort";
+    require_positive(place, "change", change);
     const GovernorPoint now = at(inclination);
     const GovernorData& d = data_;
+    if (d.lower_arm == 0 && d.sleeve_arm == 0)
+        throw_invalid(place, "needs a sleeve: give lower arm or sleeve arm; arm", d.arm);
+    if (!(now.speed > 0 && std::isfinite(now.speed)))
+        throw_invalid(place,
+                      "inclination must have an equilibrium at a speed above 0; its speed is",
+                      now.speed);
     const auto m =
         Motion::of<double>(d, std::sin(inclination), std::cos(inclination), Motion::start(d));
     GovernorEffort result;

@@ -66,7 +66,9 @@ class DragWalk {
         next.factor = last ? 1 : at.factor + length * at.factor_tangent;
         const std::optional<Corrected> found =
             corrected(next, last ? nullptr : &at, 0.2 * std::min(length, 0.5));
-        if (!found || next.factor > 1 || !directed(next, found->slope, &at)) return {};
+        if (!found || next.factor > 1 || (folds == 0 && next.factor < 0) ||
+            !directed(next, found->slope, &at))
+            return {};
         const bool turned = next.factor_tangent * at.factor_tangent < 0;
         if (turned && length > closest_to_fold) return {};
         if (!turned && !((next.factor - at.factor) * at.factor_tangent > 0)) return {};  // a jump

@@ -116,6 +116,18 @@ class DrivenMotions {
         }
         return result + sum;
     }
+    /// How many times the largest sum, `sway`, the sizes of free motions are, if they cancel.
+    double cancelled(const std::vector<Complex>& amplitude, const Vector<double>& sway) const {
+        Vector<double> size = Vector<double>::Zero(pins_);
+        for (std::size_t j = 0; j < motions.size(); ++j)
+            if (motions[j].rate != Complex(0.0))
+                size += motions[j].times * std::abs(amplitude[j]) *
+                        deflections(motions[j].shape).cwiseAbs();
+        const auto times = [](double of, double sum) { return of > sum ? of / sum : 1.0; };
+        const Index last = pins_ - 1;  // the support moves by itself
+        return std::max(times(size.head(last).maxCoeff(), sway.head(last).maxCoeff()),
+                        times(size[last], sway[last]));
+    }
     /// Splits a start (rotations and their rates, in pencil units) into motions.
     void split(const std::vector<C>& q, const std::vector<C>& rate) {
         start_ = q, start_rate_ = rate;

@@ -50,15 +50,16 @@ struct Forced {
     Index slower = 0;
 };
 
-/// `amount`: the radius, or the force.
+/// `amount`: the radius, or the force. The equations are eliminated at `beside` and corrected at n.
 REVCHAIN_LAZY
-Forced forced_at(const Drive& drive, const Wide<double>& n, const Wide<double>& amount) {
+Forced forced_at(const Drive& drive, const Wide<double>& n, const Wide<double>& amount,
+                 const Wide<double>& beside) {
     using C = pencil::ComplexWord;
     using S = Wide<double>;
     const pencil::DampedPencil& of = drive.pencil;
     const C unit(S(0.0), S(1.0)), none(S(0.0)), s(S(0.0), n), size{amount};
     const auto factors = pencil::damped_factors(s, unit);
-    pencil::JointSolver<C> solver(of, factors);
+    pencil::JointSolver<C> solver(of, pencil::damped_factors(C(S(0.0), beside), unit));
     for (std::size_t m = 0; m < solver.size(); ++m)
         if (!(size_of(solver.pivot(m)) > 0)) solver.pivot(m) = C(S(0x1p-400));
     const bool by_hand = drive.moved == Moved::support,
@@ -90,7 +91,7 @@ Forced forced_at(const Drive& drive, const Wide<double>& n, const Wide<double>& 
         }
         return most;
     };
-    corrected();
+    for (int round = 0; round < (beside == n ? 1 : 5); ++round) corrected();
     const std::vector<C> correction = pencil::offsets(of, corrected(), number);
     const auto turned = pencil::applied(of, pencil::damped_factors(s, unit, true), q);
     for (std::size_t m = 0; m < slope.size(); ++m) slope[m] = slope[m] - s * turned[m];
@@ -154,7 +155,13 @@ ForcedMotion forced_motion(const Rig& rig, const ForcedMotionOptions& options) {
             if (!(std::abs(amount.high) < 0x1p500))
                 throw_invalid("forced_motion", "the drive is too large for its unit; it has",
                               amount.high);
-            const Forced found = forced_at(at, n / of.pace, amount);
+            const S turn = n / of.pace;
+            Forced found = forced_at(at, turn, amount, turn);
+            if (!(found.error < 0.25)) {
+                // A part below a pin may be at its own speed although the whole is at none.
+                Forced again = forced_at(at, turn, amount, turn * S(1 + 0x1p-45));
+                if (again.error < 0x1p-40) found = std::move(again);
+            }
             const bool resonant = !(found.error < 0.25);
             result.resonant[static_cast<std::size_t>(row)] = resonant ? 1 : 0;
             result.error_estimate[row] = found.error;

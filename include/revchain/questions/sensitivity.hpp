@@ -111,9 +111,7 @@ void set_derivatives(Sensitivity<T>& result, Index j, const std::vector<ScaledLi
 
 template <Real T>
 Sensitivity<T> sensitivity(const Chain<T>& chain, const Modes<T>& modes) {
-    if (!chain.has_one_weight_unit())
-        detail::throw_invalid("sensitivity", "weights must not be more than 1e123 apart",
-                              chain.total_weight());
+    detail::require_one_weight_unit("sensitivity", chain);
     Sensitivity<T> result;
     result.first = modes.first;
     for (auto& derivatives : result.by_datum)

@@ -69,11 +69,9 @@ class OscillatingChain : public PencilForms<pencil::ElementPencil<DoubleDouble>>
    public:
     using Offsets = Vector<S>;
 
-    explicit OscillatingChain(const Chain<double>& chain)
-        : OscillatingChain(assemble(converted<S>(chain))) {
-        if (!pencil().units.empty())
-            throw_invalid("swing", "weights must not be more than 1e123 apart",
-                          chain.total_weight());
+    explicit OscillatingChain(const Chain<double>& chain) : OscillatingChain(converted<S>(chain)) {}
+    explicit OscillatingChain(const Chain<S>& chain) : OscillatingChain(assemble(chain)) {
+        require_one_weight_unit("swing", chain);
     }
     explicit OscillatingChain(AssembledChain<S> assembled)
         : PencilForms(std::move(assembled.pencil)), units_(assembled.units) {}

@@ -50,11 +50,11 @@ class TransientMotion {
         result_.offset.resize(rows, pins), result_.velocity.resize(rows, pins);
         result_.error_estimate.resize(rows);
         superpose();
-        if (motions_.system().inertia && (rows > 0 ? !(loss_ < 1e-9) : !motions_.all_found())) {
+        if (motions_.system().inertia && !(loss_ < 1e-9)) {
             const Transient sum = result_;
-            step_through();
+            motions_.system().momentum ? stepped<Complex>() : stepped<double>();
             const auto most = [](const Transient& of) { return of.error_estimate.maxCoeff(); };
-            if (motions_.all_found() && most(sum) <= most(result_)) result_ = sum;
+            if (rows > 0 && is_sum_ && most(sum) <= most(result_)) result_ = sum;
         }
         return std::move(result_);
     }
@@ -234,8 +234,10 @@ class TransientMotion {
             }
             if (!is_last) state = at(pieces_[k + 1].begin);
         }
-        loss_ = !motions_.all_found() ? 1 : largest > 0 ? unit * worst / largest : unit;
         set_sway(state);
+        is_sum_ = motions_.all_found() &&
+                  unit * motions_.cancelled(state.amplitude, result_.sway / length_) < 1e-9;
+        loss_ = !is_sum_ ? 1 : largest > 0 ? unit * worst / largest : unit;
     }
     void add_support(const MotionPiece& piece, double h, Vector<Complex>& y,
                      Vector<Complex>& v) const {
@@ -283,13 +285,6 @@ class TransientMotion {
     }
     /// Goes through all times by matrix exponentials, twice: then in half steps, with matrices that
     /// differ by roundings.
-    void step_through() {
-        result_.in_modes = false;
-        if (motions_.system().momentum)
-            stepped<Complex>();
-        else
-            stepped<double>();
-    }
     template <class T>
     void stepped() {
         const auto n = static_cast<Index>(motions_.size());
@@ -334,7 +329,10 @@ class TransientMotion {
             }
             if (!is_last) go(pieces_[k + 1].begin);
         }
-        if (!motions_.all_found()) sample_sway(begin, half);
+        if (is_sum_) return;
+        result_.in_modes = false;
+        result_.amplitude.setConstant(std::numeric_limits<double>::quiet_NaN());
+        sample_sway(begin, half);
     }
     /// Sets the largest offsets at 400 instants of three turns of the slowest motion.
     template <class T>
@@ -374,7 +372,8 @@ class TransientMotion {
     double length_, weight_;
     std::vector<ScaledPiece> scaled_;
     std::vector<C> q_, rate_;
-    double loss_ = 0;  ///< estimated error over the largest offset
+    double loss_ = 0;      ///< estimated error over the largest offset
+    bool is_sum_ = false;  ///< whether the motion since the end is a sum of motions
     Transient result_;
 };
 
@@ -392,8 +391,9 @@ Transient transient(const Rig& rig, const TransientOptions& options) {
                               "the support is carried round: use response; its radius is",
                               rig.support().radius);
     if (rig.fluid() == Fluid::turning)
-        detail::throw_invalid(
-            "transient", "a rig moves in a fluid at rest, not in one that turns; links", rig.size());
+        detail::throw_invalid("transient",
+                              "a rig moves in a fluid at rest, not in one that turns; links",
+                              rig.size());
     return detail::TransientMotion<>(rig, options).found();
 }
 

@@ -165,8 +165,7 @@ Tuned tune(const Chain<double>& chain, const TuneOptions& options) {
     if (options.link < 0 || options.link >= size)
         throw_invalid(place, "link must be from 0, the lowest, to " + std::to_string(size - 1),
                       options.link);
-    if (!chain.has_one_weight_unit())
-        throw_invalid(place, "weights must not be more than 1e123 apart", chain.total_weight());
+    require_one_weight_unit(place, chain);
     using S = Wide<double>;
     S wanted(options.conical_height.value_or(0));
     if (options.angular_speed) {

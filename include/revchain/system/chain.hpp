@@ -73,7 +73,7 @@ Chain<T> Chain<T>::repeated(std::string_view place, Index count, T length, T wei
 
 template <Real T>
 template <class V>
-Column<V> Chain<T>::column(const std::vector<Link<T>>& links, bool equal, V Link<T>::*member) {
+Column<V> Chain<T>::column(const std::vector<Link<T>>& links, bool equal, V Link<T>::* member) {
     if (equal) return links.front().*member;
     std::vector<V> values(links.size());
     std::transform(links.begin(), links.end(), values.begin(),
@@ -251,5 +251,19 @@ Index Chain<T>::inertialess_coordinates() const {
     }
     return nullity + (free ? 1 : 0);
 }
+
+namespace detail {
+
+/// Throws InvalidArgument if the ratio of two weights exceeds 1e123 (in double).
+template <Real T>
+void require_one_weight_unit(std::string_view place, const Chain<T>& chain) {
+    if (chain.has_one_weight_unit()) return;
+    T least = chain.total_weight();
+    for (Index m = 0; m < chain.size(); ++m)
+        if (const T weight = chain.link(m).weight; weight > T(0)) least = std::min(least, weight);
+    throw_invalid(place, "weights must not be more than 1e123 apart here; the smallest is", least);
+}
+
+}  // namespace detail
 
 }  // namespace revchain

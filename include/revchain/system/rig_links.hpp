@@ -39,9 +39,7 @@ struct RigLink {
 inline std::vector<RigLink> rig_links(const Rig& rig) {
     using S = Wide<double>;
     const Chain<double>& chain = rig.chain();
-    if (!chain.has_one_weight_unit())
-        throw_invalid("rig_links", "weights must not be more than 1e123 apart",
-                      chain.total_weight());
+    require_one_weight_unit("Chain", chain);
     const ChainUnits units = chain.units();
     const auto in_weights = [&](double x) { return std::ldexp(x, -units.weight_exponent); };
     const auto in_lengths = [&](double x) { return std::ldexp(x, -units.length_exponent); };

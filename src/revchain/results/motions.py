@@ -352,7 +352,8 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
     amplitude: Field[Complex] = Field(
         "Coefficients, shape (k,), in offset = sum of ``shape * amplitude * exp(1j * angular_frequency * time)``; without "
         "momentum the real part of this sum. Where there is an `error_estimate`: those of the offsets from the resting "
-        "place after `motion_end`, with ``exp(exponent * (time - motion_end))``.",
+        "place after `motion_end`, with ``exp(exponent * (time - motion_end))``; NaN where damping is critical, so that "
+        "two motions cannot be told apart.",
         fact=True,
     )
     start: Field[Numbers | None] = Field(

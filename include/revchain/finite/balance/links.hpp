@@ -100,9 +100,7 @@ Links<Wide<T>> links_of(const Chain<T>& chain) {
     using std::ldexp;
     using S = Wide<T>;
     using E = Narrow<S>;
-    if (!chain.has_one_weight_unit())
-        detail::throw_invalid("finite::links_of", "weights must not be more than 1e123 apart",
-                              chain.total_weight());
+    detail::require_one_weight_unit("Chain", chain);
     Links<S> result;
     result.units = chain.units();
     result.total_weight = as_double(ldexp(chain.total_weight(), -result.units.weight_exponent));
