@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import io
-import math
 import re
 from dataclasses import replace
 from functools import cached_property
@@ -98,7 +97,7 @@ class Report:
         system = self.scene.system()
         if not isinstance(system, SleeveGovernor):
             return system.to_dict()
-        return {"system": "SleeveGovernor", **{name: value for name, value in system._facts().items() if value < math.inf}}
+        return {"system": "SleeveGovernor", **system._facts()}
 
     @cached_property
     def _all(self) -> Sheet:

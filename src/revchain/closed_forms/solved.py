@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, ClassVar
 
 import numpy as np
@@ -52,7 +53,8 @@ class Solved(Result):
         return self._solver(**self._given)
 
     def _facts(self) -> dict[str, float]:
-        return {name: value for name, value in self._given.items() if value is not None}
+        """The numbers given; infinite ones are left out, as JSON does not have them."""
+        return {name: value for name, value in self._given.items() if value is not None and not math.isinf(value)}
 
     def _sheet(self, brief: bool = False) -> Sheet:
         columns = []
