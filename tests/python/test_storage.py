@@ -374,6 +374,27 @@ def test_a_number_that_is_changed_is_found(npz):
                 assert str(error).startswith(f"{npz}: ")
 
 
+@pytest.mark.parametrize(("right", "wrong"), [("'<f8'", "'<f4'"), ("'shape': (2", "'shape': (1"), ("'<f8'", "'|b1'")])
+def test_a_header_that_is_changed_is_found(npz, right, wrong):
+    """numpy reads only as many numbers as the header says, so that the checksum at the end is not reached."""
+    rc.modes(rc.Chain.uniform_rods(2000, length=1.0), 2000).save(npz)  # zipfile compares small arrays at once
+    data = bytearray(npz.read_bytes())
+    place = data.index(right.encode(), data.index(b"Modes.conical_height.npy"))
+    data[place : place + len(wrong)] = wrong.encode()
+    npz.write_bytes(data)
+    refused(npz, NOT_OURS)
+
+
+def test_a_header_that_is_no_python_is_refused(npz):
+    """numpy leaves a TokenError of two brackets, and an IndentationError of a line that goes back, to the caller."""
+    rc.modes(CHAIN).save(npz)
+    data = npz.read_bytes()
+    place = data.index(b"'shape': ()") + 10
+    for changed in (b"(", b"\n"):
+        npz.write_bytes(data[:place] + changed + data[place + 1 :])
+        refused(npz, NOT_OURS)
+
+
 def test_a_file_that_was_cut(path):
     result = of("Modes")
     result.save(path)
@@ -462,6 +483,10 @@ def test_several_files_appear_together(tmp_path):
         first.write_text("new")
         second.write_text("new too")
     assert one.read_text() == "new" and two.read_text() == "new too" and {*tmp_path.iterdir()} == {one, two}
+    with _files.written_aside(one, two) as asides:
+        asides[0].write_text("newer")
+        del asides[1]  # so that its file stays
+    assert one.read_text() == "newer" and two.read_text() == "new too" and {*tmp_path.iterdir()} == {one, two}
 
 
 def test_links_devices_and_permissions(tmp_path):
