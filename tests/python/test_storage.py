@@ -210,6 +210,9 @@ def test_xarray_has_all_that_the_dictionary_has(tmp_path, name):
     data, whole = result.to_xarray(), result.to_dict()
     there = {*data.variables, *data.attrs}
     assert not {key for key, value in whole.items() if value is not None} - there - {result._sheet().row + "s"}
+    for text in data.attrs.values():
+        if isinstance(text, str) and text[:1] in ("{", "["):
+            json.loads(text, parse_constant=lambda word: pytest.fail(f"{word} is no JSON"))
     data.to_netcdf(tmp_path / "data.nc", engine="h5netcdf")
 
 
@@ -386,12 +389,12 @@ def test_a_header_that_is_changed_is_found(npz, right, wrong):
 
 
 def test_a_header_that_is_no_python_is_refused(npz):
-    """numpy leaves a TokenError of two brackets, and an IndentationError of a line that goes back, to the caller."""
+    """numpy passes on errors of Python's tokenizer and of its parser."""
     rc.modes(CHAIN).save(npz)
     data = npz.read_bytes()
-    place = data.index(b"'shape': ()") + 10
-    for changed in (b"(", b"\n"):
-        npz.write_bytes(data[:place] + changed + data[place + 1 :])
+    for right, wrong in ((b"'shape': ()", b"'shape': (("), (b"'<U", b"',U")):
+        assert len(right) == len(wrong) and right in data
+        npz.write_bytes(data.replace(right, wrong, 1))
         refused(npz, NOT_OURS)
 
 

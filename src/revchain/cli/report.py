@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import io
+import math
 import re
 from dataclasses import replace
 from functools import cached_property
@@ -97,7 +98,7 @@ class Report:
         system = self.scene.system()
         if not isinstance(system, SleeveGovernor):
             return system.to_dict()
-        return {"system": "SleeveGovernor", **system._facts()}
+        return {"system": "SleeveGovernor", **{name: value for name, value in system._facts().items() if value < math.inf}}
 
     @cached_property
     def _all(self) -> Sheet:

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any, ClassVar
 
 import numpy as np
@@ -53,8 +52,7 @@ class Solved(Result):
         return self._solver(**self._given)
 
     def _facts(self) -> dict[str, float]:
-        """The numbers given; infinite ones are left out, as JSON does not have them."""
-        return {name: value for name, value in self._given.items() if value is not None and not math.isinf(value)}
+        return {name: value for name, value in self._given.items() if value is not None}
 
     def _sheet(self, brief: bool = False) -> Sheet:
         columns = []
