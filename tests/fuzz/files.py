@@ -8,6 +8,7 @@ files.py SECONDS [FIRST_SEED [COUNT]]: one file for each seed; a failure tells t
 import contextlib
 import json
 import random
+import re
 import resource
 import signal
 import sys
@@ -69,6 +70,16 @@ def changed_array(array, draw: random.Random):
     return copy
 
 
+def changed_headers(data: bytes, draw: random.Random) -> bytes:
+    """An .npz file in which bytes inside the headers of arrays are others, such as a digit of a shape."""
+    places, changed = [found.start() for found in re.finditer(b"\x93NUMPY", data)], bytearray(data)
+    for _ in range(draw.choice((1, 1, 1, 3))):
+        at = draw.choice(places)
+        size = 10 + int.from_bytes(data[at + 8 : at + 10], "little")  # magic, version and length; then the header
+        changed[at + draw.randrange(size)] = draw.choice((draw.randrange(256), *b"()[]{}',:012345678|<>fib\n "))
+    return bytes(changed)
+
+
 def small(scene: rc.Scene) -> bool:
     whole = [getattr(scene, name) for name in ("uniform_chain", "tapered_chain")]
     counts = [getattr(each, "count", 0) for each in whole]
@@ -110,10 +121,21 @@ class Corpus:
             result.save(folder / "right.npz")
             with np.load(folder / "right.npz") as kept:
                 self.results.append(dict(kept))
+        self.long = rc.modes(rc.Chain.uniform_rods(2000, length=1.0), 600)  # arrays of more than 4096 bytes, which
+        self.long.save(folder / "right.npz")  # zipfile does not read at once
+        self.bytes_of_long = (folder / "right.npz").read_bytes()
+
+    def read_long(self, path: Path) -> None:
+        if rc.load(path) != self.long:
+            raise AssertionError("a damaged file is read, with other numbers")
 
     def changed(self, draw: random.Random) -> tuple:
         """A function and the file that it is to read."""
-        kind = draw.randrange(4)
+        kind = draw.randrange(5)
+        if kind == 4:
+            path = self.folder / "changed.npz"
+            path.write_bytes(changed_headers(self.bytes_of_long, draw))
+            return self.read_long, path
         if kind == 3:
             return read_result, self._changed_result(draw)
         read, text = draw.choice(self.texts)
@@ -145,7 +167,7 @@ def failure(read, path: Path) -> str:
     try:
         read(path)
     except Exception as error:
-        kind = ValueError if read is read_result else SceneError
+        kind = SceneError if read in (read_scene, read_study) else ValueError
         right = isinstance(error, kind) and str(error).startswith(str(path))
         return "" if right else f"{type(error).__name__}: {error}"
     return ""

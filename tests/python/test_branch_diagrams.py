@@ -176,6 +176,11 @@ def test_words_say_which_branches_are_complete(run, scene):
 def test_a_search_that_ends_before_its_proof_fails():
     from revchain.scenes.report import shortfall
 
+    with pytest.raises(ValueError, match="^revchain.branches: budget must not be negative, got -1$"):
+        rc.branches(BOTTOM_HEAVY, max_angular_speed=10.0, budget=-1)
+    with pytest.raises(ValueError, match="^revchain.steady_shapes: budget must not be negative, got -1$"):
+        rc.steady_shapes(BOTTOM_HEAVY, angular_speed=10.0, budget=-1)
+    assert not rc.branches(BOTTOM_HEAVY, max_angular_speed=10.0, budget=0).complete
     cut = rc.branches(BOTTOM_HEAVY, max_angular_speed=10.0, budget=10)
     assert not cut._is_good() and shortfall(cut).startswith("the branches are not proved to be all: ")
     assert not rc.branches(BOTTOM_HEAVY, max_angular_speed=10.0, budget=10, hanging_only=False)._is_good()

@@ -201,7 +201,7 @@ def test_a_body_beyond_all_measure_is_named(mass):
     ],
 )
 def test_wrong_edits(edit, message):
-    with pytest.raises(ValueError, match=rf"revchain.*{message}.*, got"):
+    with pytest.raises(ValueError, match=rf"^revchain\.Chain\.(with_body|with_thread|clamped): {message}.*, got"):
         edit(rc.Chain(weight=[1.0, 2.0, 3.0], length=[0.5, 0.4, 0.3]))
 
 
@@ -216,6 +216,31 @@ def test_data_are_checked_as_arguments_are():
     for wrong in ({"names": ["a"]}, {"names": [1, 2, 3]}, {"links": "3"}, {"links": 3.5}, {"taper": "x"}):
         with pytest.raises((ValueError, TypeError), match="revchain.Chain.from_dict"):
             rc.Chain.from_dict({**data, **wrong})
+    huge = 10**400  # too large for a float
+    for name in ("mass", "length", "centroid", "gyration_ratio"):
+        wrong = {**data, name: huge}
+        for read in (
+            lambda: rc.Chain.from_dict(wrong),
+            lambda: rc.Rig.from_dict({"system": "Rig", "chain": wrong, "fluid": "still"}),
+            lambda: rc.Held.from_dict({"system": "Held", "of": wrong, "span": 2.0}),
+        ):
+            with pytest.raises(ValueError, match=f"^revchain.Chain.from_dict: {name} must be a real number"):
+                read()
+    cord = rc.Cord(1.0, density=lambda s: 1 + s, masses={0.5: 0.1})
+    assert rc.Cord.from_dict(cord.to_dict()) == cord
+    density = [([], "density must be"), ([1], "density must be"), ([1, 2], "density: "), ([huge, 2], r"density\[0\] must be")]
+    masses = [([[huge, 1.0]], "masses must be"), ([[0.5]], "masses must be pairs"), ([0.5], "masses must be pairs")]
+    for key, values in {"density": density, "masses": masses}.items():
+        for value, message in values:
+            wrong = {**cord.to_dict(), key: value}
+            for read in (
+                lambda: rc.Cord.from_dict(wrong),
+                lambda: rc.Held.from_dict({"system": "Held", "of": wrong, "span": 0.5}),
+            ):
+                with pytest.raises(ValueError, match=f"^revchain.Cord.from_dict: {message}"):
+                    read()
+    with pytest.raises(ValueError, match='^revchain.Held.from_dict: of must have "system"'):
+        rc.Held.from_dict({"system": "Held", "of": {}, "span": 0.5})
     rig = rc.Rig(rc.Chain(mass=1.0, length=1.0)).to_dict()
     with pytest.raises(ValueError, match="there is no flywheel"):
         rc.Rig.from_dict({**rig, "flywheel": {"momentum": 1.0}})

@@ -191,6 +191,18 @@ def test_a_workbook_of_all_answers(tmp_path, run):
     assert [*sheets(tmp_path / "m.xlsx")] == ["system", "links", "modes", "modes nodes", "modes shape"]
 
 
+def test_a_workbook_stays_if_nothing_is_answered(tmp_path, run):
+    scene, book, page = (tmp_path / name for name in ("cord.toml", "keep.xlsx", "page.html"))
+    scene.write_text("[cord]\nlength=1\nmass=1\n[ask.response]\nangular_speed=2\n")
+    rc.modes(CRANE).to_excel(book)
+    before = book.read_bytes()
+    code, out, _ = run("run", scene, "--out", tmp_path / "out", "--xlsx", book, "--report", page)
+    assert code and out.splitlines()[-1] == f"wrote {page}" and page.stat().st_size > 0
+    assert book.read_bytes() == before and {each.name for each in tmp_path.iterdir()} == {"cord.toml", "keep.xlsx", "out", "page.html"}
+    book.unlink()
+    assert run("run", scene, "--out", tmp_path / "out", "--xlsx", book)[1] == "" and not book.exists()
+
+
 def test_a_workbook_of_a_study(tmp_path, run, monkeypatch):
     monkeypatch.chdir(tmp_path)
     study = {"scene": {"title": "Rope", "links": [{"mass": 1, "length": 1}]}, "vary": {"links[0].length": {"from": 1, "to": 2, "steps": 5}}}

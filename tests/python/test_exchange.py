@@ -386,6 +386,10 @@ def test_urdf_has_one_configuration():
         rc.to_urdf(shapes_of(RODS.clamped(0)) and rc.steady_shapes(RODS, angular_speed=9.0))
     with pytest.raises(ValueError, match="URDF has no velocities, which wheels need"):
         rc.to_urdf(RIGS["flywheels"])
+    with pytest.raises(TypeError, match="^revchain.to_urdf: system must be a revchain.Chain, Rig or SteadyShape, got None$"):
+        rc.to_urdf(None)
+    with pytest.raises(TypeError, match="system must be a revchain.Chain, Rig, SteadyShape or SteadyShapes, got None$"):
+        rc.to_mjcf(None)
     assert rc.from_urdf(rc.to_urdf(rc.Chain(weight=[4.0, 9.0], length=1.0), gravity=2.0)).mass.tolist() == [2.0, 4.5]
 
 

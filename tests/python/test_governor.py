@@ -2,6 +2,7 @@
 """Governors with a sleeve: numbers of text books, laws, tables and what is refused. Speeds by the forces in the links:
 tests/cpp/sleeve_governor.cpp."""
 
+import json
 import math
 import pickle
 
@@ -54,6 +55,15 @@ def test_watts_periods_in_40_digits(inertia):
         period = 2 * mp.pi * mp.sqrt(moving / mp.diff(energy, angle, 2))
     found = rc.SleeveGovernor(**WATT, shaft_inertia=inertia).equilibria(5.0)[1]
     assert found.period == near(float(period), rel=1e-14)
+
+
+def test_a_shaft_whose_speed_is_held_is_left_out_of_attributes():
+    """Its moment of inertia is infinite, which the JSON of an attribute cannot hold."""
+    for given in ({}, {"shaft_inertia": 0.4}):
+        found = rc.SleeveGovernor(**WATT, **given).equilibria(8.0)
+        kept, data = {**WATT, **given}, json.loads(found.to_xarray().attrs["governor"])
+        assert {name: data[name] for name in kept} == kept and ("shaft_inertia" in data) == bool(given)
+        assert found.to_dict()["governor"]["shaft_inertia"] == given.get("shaft_inertia", math.inf)
 
 
 def test_the_stops_of_hartnells_governor(tmp_path):

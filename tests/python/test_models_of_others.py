@@ -720,6 +720,23 @@ def test_turning_parts_as_a_scene():
     assert scene.modes().angular_speed == pytest.approx(rc.modes(rig, gravity=9.81).angular_speed, rel=1e-15)
 
 
+def test_all_parts_of_a_rig_as_a_scene():
+    """Drag, wheels that spin and a fluid are written; what a scene cannot hold is refused."""
+    bodies = rc.Chain(mass=[1.0, 2.0], length=1.0, centroid=0.5, radius_of_gyration=0.3)
+    points = rc.Chain(weight=[1.0, 2.0], length=1.0)
+    for rig in (
+        rc.Rig(bodies, drag=[0.0, 0.2]),
+        rc.Rig(points, flywheels=rc.Flywheel(weight=0.5, radius_of_gyration=0.1, spin=30.0, driven=[True, False])),
+        rc.Rig(bodies, displaced=rc.Displaced(mass=0.1, centroid=0.4, radius_of_gyration=0.2), fluid="turning"),
+    ):
+        assert rc.Scene.from_dict(tomllib.loads(scene_text(rig, 9.81, "", []))).system() == rig
+    with pytest.raises(ValueError, match="a scene gives flywheels by mass, radius_of_gyration and spin, not by momentum"):
+        scene_text(rc.Rig(bodies, flywheels=rc.Flywheel(momentum=[0.1, 0.0])), 9.81, "", [])
+    thread = rc.Chain(mass=[1.0, 0.0], length=1.0)
+    with pytest.raises(ValueError, match="a scene cannot give link 1 an axial_moment, as it has no mass, got 0.02"):
+        scene_text(rc.Rig(thread, flywheels=rc.Flywheel(axial_moment=[0.0, 0.02])), 9.81, "", [])
+
+
 # ---- the command
 
 

@@ -210,6 +210,9 @@ def test_xarray_has_all_that_the_dictionary_has(tmp_path, name):
     data, whole = result.to_xarray(), result.to_dict()
     there = {*data.variables, *data.attrs}
     assert not {key for key, value in whole.items() if value is not None} - there - {result._sheet().row + "s"}
+    for text in data.attrs.values():
+        if isinstance(text, str) and text[:1] in ("{", "["):
+            json.loads(text, parse_constant=lambda word: pytest.fail(f"{word} is no JSON"))
     data.to_netcdf(tmp_path / "data.nc", engine="h5netcdf")
 
 
@@ -374,6 +377,27 @@ def test_a_number_that_is_changed_is_found(npz):
                 assert str(error).startswith(f"{npz}: ")
 
 
+@pytest.mark.parametrize(("right", "wrong"), [("'<f8'", "'<f4'"), ("'shape': (2", "'shape': (1"), ("'<f8'", "'|b1'")])
+def test_a_header_that_is_changed_is_found(npz, right, wrong):
+    """numpy reads only as many numbers as the header says, so that the checksum at the end is not reached."""
+    rc.modes(rc.Chain.uniform_rods(2000, length=1.0), 2000).save(npz)  # zipfile compares small arrays at once
+    data = bytearray(npz.read_bytes())
+    place = data.index(right.encode(), data.index(b"Modes.conical_height.npy"))
+    data[place : place + len(wrong)] = wrong.encode()
+    npz.write_bytes(data)
+    refused(npz, NOT_OURS)
+
+
+def test_a_header_that_is_no_python_is_refused(npz):
+    """numpy passes on errors of Python's tokenizer and of its parser."""
+    rc.modes(CHAIN).save(npz)
+    data = npz.read_bytes()
+    for right, wrong in ((b"'shape': ()", b"'shape': (("), (b"'<U", b"',U")):
+        assert len(right) == len(wrong) and right in data
+        npz.write_bytes(data.replace(right, wrong, 1))
+        refused(npz, NOT_OURS)
+
+
 def test_a_file_that_was_cut(path):
     result = of("Modes")
     result.save(path)
@@ -462,6 +486,10 @@ def test_several_files_appear_together(tmp_path):
         first.write_text("new")
         second.write_text("new too")
     assert one.read_text() == "new" and two.read_text() == "new too" and {*tmp_path.iterdir()} == {one, two}
+    with _files.written_aside(one, two) as asides:
+        asides[0].write_text("newer")
+        del asides[1]  # so that its file stays
+    assert one.read_text() == "newer" and two.read_text() == "new too" and {*tmp_path.iterdir()} == {one, two}
 
 
 def test_links_devices_and_permissions(tmp_path):

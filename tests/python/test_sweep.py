@@ -293,11 +293,14 @@ def test_what_is_refused_of_the_call():
     for wrong in ({"workers": 0}, {"chunk": 0}, {"chunk": 1.5}, {"out": "a.txt"}, {"out": "a"}):
         with pytest.raises(ValueError):
             rc.sweep(given, **wrong)
-    for wrong in ({"executor": 3}, {"progress": 3}):
+    for wrong in ({"executor": 3}, {"executor": ThreadPoolExecutor}, {"progress": 3}):
         with pytest.raises(TypeError, match="must be a"):
             rc.sweep(given, **wrong)
-    with pytest.raises(TypeError):
-        rc.sweep(3)
+    with pytest.raises(TypeError, match=r"such as ThreadPoolExecutor\(4\), got <class"):
+        rc.sweep(given, executor=ThreadPoolExecutor)
+    for wrong in ({"study": 3}, {"study": given, "out": 3}):
+        with pytest.raises(TypeError):
+            rc.sweep(**wrong)
     with pytest.raises(rc.SceneError, match="nowhere.toml: cannot be read"):
         rc.sweep("nowhere.toml")
     with pytest.raises(OSError, match="is no file"):
@@ -449,6 +452,23 @@ def test_what_is_damaged_is_computed_again(ended):
         found, resumed = with_resumed(given, out="a.csv")
     assert len(warned) == 6 and all("\n" not in str(each.message) for each in warned)
     assert resumed == 10 and files() == ["a.csv"]
+    same(found, rc.sweep(given))
+
+
+@pytest.mark.parametrize(("right", "wrong"), [(b"'<f8'", b"'<f4'"), (b"'shape': (2000,", b"'shape': ((000,")])
+def test_a_damaged_header_is_computed_again(right, wrong):
+    """With these headers numpy reads other numbers, or raises an error of Python's tokenizer."""
+    given = study(PLUMMETS, {"links[0].mass": {"from": 1.0, "to": 2.0, "steps": 4000}})
+    with pytest.raises(Ended):
+        rc.sweep(given, out="a.csv", chunk=2000, workers=1, progress=ended_after(2000))
+    [path] = Path("a.csv.partial").glob("[0-9]*.npz")
+    data = bytearray(path.read_bytes())
+    place = data.index(right, data.index(b"angular_speed.npy"))
+    data[place : place + len(right)] = wrong
+    path.write_bytes(data)
+    with pytest.warns(UserWarning, match="cannot be read, and its points are computed again"):
+        found, resumed = with_resumed(given, out="a.csv")
+    assert resumed == 0
     same(found, rc.sweep(given))
 
 

@@ -100,10 +100,9 @@ def run(
             except Stop as stop:
                 answers.setdefault(question, str(stop).removeprefix(f"{scene}: ").removeprefix(f"{question}: "))
                 failed.append(stop)
-        if wholes:
-            write_wholes(checked, answers, wholes, asides, units, gravity)
-    if wholes and not quiet:
-        print(f"wrote {', '.join(map(str, wholes))}")
+        written = write_wholes(checked, answers, wholes, asides, units, gravity)
+    if written and not quiet:
+        print(f"wrote {', '.join(map(str, written))}")
     if failed:
         raise Stop("\nrevchain: ".join(map(str, failed)), max(stop.code for stop in failed))
 
@@ -125,16 +124,25 @@ def checked_wholes(scene: Path, report: Path | None, xlsx: Path | None) -> list[
 
 def write_wholes(
     scene: Scene, answers: dict[str, Any], wholes: list[Path], asides: list[Path], units: str, gravity: str | None
-) -> None:
-    """Write the report and the workbook of all answers to the temporary files beside them."""
+) -> list[Path]:
+    """Write the report and the workbook of all answers to the temporary files beside them; return what is written.
+
+    Without any answer there is no workbook: its temporary file is removed from the list.
+    """
     options = (f' --gravity "{gravity}"' if gravity else "") + (f" --units {units}" if units != "deg" else "")
     found = {question: answer for question, answer in answers.items() if not isinstance(answer, str)}
-    for path, aside in zip(wholes, asides, strict=True):
+    written = []
+    for path, aside in zip(wholes, tuple(asides), strict=True):
         with naming(path):
             if path.suffix.lower() != ".xlsx":
                 aside.write_text(page_of(scene, answers, units, options), encoding="utf-8")
             elif found:
                 write_workbook(aside, pages_of(found, scene.title), path)
+            else:
+                asides.remove(aside)
+                continue
+        written.append(path)
+    return written
 
 
 def _command(question: str, table: type[Table], summary: str) -> None:

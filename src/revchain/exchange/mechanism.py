@@ -128,14 +128,14 @@ class State:
     tension: Floats
 
 
-def mechanism(function: str, given: Any, gravity: float | None) -> tuple[Mechanism, list[State]]:
-    """The bodies of a system, or of the system of shapes, and its states: at rest, or the shapes."""
+def mechanism(function: str, given: Any, gravity: float | None, several: bool = True) -> tuple[Mechanism, list[State]]:
+    """The bodies of a system, or of the system of shapes (one, if not `several`), and its states: at rest, or the shapes."""
     shapes = [given] if isinstance(given, SteadyShape) else list(given) if isinstance(given, SteadyShapes) else None
     system = given if shapes is None else given.system
     if not isinstance(system, Chain | Rig):
         if isinstance(system, System):
             raise ValueError(f"{function}: {_BENT}; got {shown(system)}")
-        wanted = "revchain.Chain, Rig, SteadyShape or SteadyShapes"
+        wanted = "revchain.Chain, Rig, SteadyShape or SteadyShapes" if several else "revchain.Chain, Rig or SteadyShape"
         raise TypeError(f"{function}: system must be a {wanted}, got {shown(given)}")
     if shapes is None:
         gravity = one_positive(function, "gravity", STANDARD_GRAVITY if gravity is None else gravity)

@@ -150,7 +150,7 @@ def to_urdf(
         raise TypeError(
             f"{function}: a URDF file has one configuration; give one shape, such as shapes[0], got {shown(system)}"
         )
-    made, [state] = mechanism(function, system, gravity)
+    made, [state] = mechanism(function, system, gravity, several=False)
     if made.yields or made.pin_stiffness.any():
         got = f"a support of stiffness {made.stiffness:g}" if made.yields else "springs at pins"
         raise ValueError(f"{function}: URDF has no springs, and trolleys are not written; use to_mjcf, got {got}")

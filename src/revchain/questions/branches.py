@@ -247,6 +247,8 @@ def branches(
     caller = "revchain.branches"
     height, g, turns = _checked(caller, system, min_conical_height, max_angular_speed, gravity, direction)
     most = limit(caller, "budget", budget)
+    if most < 0:
+        raise ValueError(f"{caller}: budget must not be negative, got {shown(budget)}")
     postures, judged = [system], boolean(caller, "stability", stability)
     if not boolean(caller, "hanging_only", hanging_only):
         postures = _postures(caller, system)

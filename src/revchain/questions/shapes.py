@@ -58,7 +58,7 @@ def steady_shapes(
         Acceleration of gravity, m/s^2; standard gravity if left out. Not used for a weightless held system.
     budget : int, optional
         Largest number of links to visit while the range of inclinations of the lowest link is split. Chains and rigs:
-        3,000,000 if left out, at about half a microsecond each; with 0 or less the list is empty and not complete. Held
+        3,000,000 if left out, at about half a microsecond each; with 0 the list is empty and not complete. Held
         chains: 300,000 if left out, at about a microsecond each; with 0 completeness is not proved. Cords for which no
         theorem counts the shapes: number of offsets of the free end to examine, 200 if left out.
     hanging_only : bool, optional
@@ -214,6 +214,8 @@ def steady_shapes(
     most = limit(caller, "budget", BUDGET[kind] if budget is None else budget)
     if kind is Cord and not 1 <= most <= 10**6:
         raise ValueError(f"{caller}: budget must be from 1 to 1000000 offsets of the free end of a cord, got {most}")
+    if most < 0:
+        raise ValueError(f"{caller}: budget must not be negative, got {shown(budget)}")
     hanging = boolean(caller, "hanging_only", hanging_only)
     waves = counted(caller, "max_half_waves", max_half_waves)
     if waves > MOST_HALF_WAVES:

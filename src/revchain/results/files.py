@@ -65,8 +65,9 @@ def hdf5_file(path: str | os.PathLike[str], mode: str = "w+") -> Iterator[FileIO
 def written_aside(*paths: str | os.PathLike[str]) -> Iterator[list[Path]]:
     """Yield an empty temporary file beside each path, with the same ending; rename all of them at the end.
 
-    If anything fails before the renaming, all are removed and existing files stay. A path that cannot be written raises an
-    error at once. Devices and pipes are written directly.
+    A file that the caller removes from the list is not renamed, so that its path stays as it was. If anything fails before
+    the renaming, all are removed and existing files stay. A path that cannot be written raises an error at once. Devices and
+    pipes are written directly.
     """
     finals = [Path(os.path.realpath(path)) for path in paths]
     asides: list[Path] = []
@@ -84,13 +85,12 @@ def written_aside(*paths: str | os.PathLike[str]) -> Iterator[list[Path]]:
             elif not os.access(final, os.W_OK):
                 raise PermissionError(13, "Permission denied", os.fspath(path))
             asides.append(aside)
-        yield asides
+        yield (listed := asides.copy())
         for aside, final in zip(asides, finals, strict=True):
-            if aside != final:
+            if aside != final and aside in listed:
                 os.replace(aside, final)
-    except BaseException:
+    finally:
         for aside, final in zip(asides, finals, strict=False):
             if aside != final:
                 with suppress(OSError):
                     aside.unlink()
-        raise

@@ -244,9 +244,9 @@ def plain(value: Any) -> Any:
 
 
 def finite(value: Any) -> Any:
-    """`value` for JSON: None in place of infinity and NaN, which JSON does not have."""
+    """`value` without infinity and NaN, which JSON does not have: left out of dictionaries, None in lists."""
     if isinstance(value, dict):
-        return {name: finite(item) for name, item in value.items()}
+        return {name: kept for name, item in value.items() if (kept := finite(item)) is not None or item is None}
     if isinstance(value, list):
         return [finite(item) for item in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
@@ -336,7 +336,7 @@ def _attribute(value: Any) -> str | int | float:
     value = plain(value)
     if isinstance(value, bool):
         return int(value)
-    return value if isinstance(value, str | int | float) else json.dumps(value)
+    return value if isinstance(value, str | int | float) else json.dumps(finite(value))
 
 
 def padded(rows: Any, axes: int) -> Numbers:

@@ -9,6 +9,7 @@ import re
 from collections.abc import Mapping
 from importlib import import_module
 from pathlib import Path
+from tokenize import TokenError
 from typing import IO, TYPE_CHECKING, Any
 from zipfile import ZIP_STORED, BadZipFile, ZipFile
 
@@ -41,7 +42,7 @@ class UnknownKind(ValueError):
 
 WRONG = (  # what the readers raise for a file that is damaged or that somebody else made
     *(ArithmeticError, AttributeError, BadZipFile, EOFError, LookupError, MemoryError, NotImplementedError),
-    *(OSError, RuntimeError, TypeError, ValueError),
+    *(OSError, RuntimeError, SyntaxError, TokenError, TypeError, ValueError),
 )
 
 
@@ -121,16 +122,27 @@ def _arrays(file: IO[bytes], size: int) -> dict[str, np.ndarray[Any, Any]]:
     with ZipFile(file) as entries:
         if any(entry.compress_type != ZIP_STORED or entry.file_size > size for entry in entries.infolist()):
             raise NotRead(COMPRESSED)
-    file.seek(0)
-    arrays: dict[str, np.ndarray[Any, Any]] = {}
-    with np.load(file, allow_pickle=False) as kept:
-        for name in kept.files:
+        arrays: dict[str, np.ndarray[Any, Any]] = {}
+        for entry in entries.namelist():
+            name = entry.removesuffix(".npy")
             try:
-                arrays[name] = kept[name]
+                arrays[name] = whole_array(entries, entry)
             except ValueError as error:
                 reason = "is not loaded: it is damaged or holds pickled Python objects, which may run any code"
                 raise NotRead(f"the array {name!r} {reason} ({error}); compute and save the result again") from None
     return arrays
+
+
+def whole_array(entries: ZipFile, name: str) -> np.ndarray[Any, Any]:
+    """The array in an entry of an .npz file, which is read to its end: only there is its checksum compared.
+
+    `numpy.load` stops where the header of the array says that it ends, and so accepts a header that was damaged.
+    """
+    with entries.open(name) as file:
+        found: np.ndarray[Any, Any] = np.lib.format.read_array(file, allow_pickle=False)
+        if file.read():
+            raise ValueError("there are bytes after its end")
+        return found
 
 
 def _loaded(header: Any, arrays: Mapping[str, Any]) -> Result:

@@ -7,15 +7,22 @@ import json
 import math
 from typing import Any
 
+import numpy as np
+
 from ..systems.chain import Chain
 from ..systems.rig import Rig
 
 
 def scene_text(system: Chain | Rig, gravity: float, title: str, comments: list[str], description: str = "") -> str:
-    """The TOML of a scene that asks for all modes of a chain, or of a rig with a support, pins or turning parts."""
+    """The TOML of a scene that asks for all modes of a chain or rig; a ValueError if a scene cannot hold a part of it."""
     rig = system if isinstance(system, Rig) else Rig(system)
+    if rig.flywheels is not None and np.any(rig.flywheels.momentum):
+        wanted = "a scene gives flywheels by mass, radius_of_gyration and spin, not by momentum"
+        raise ValueError(f"revchain: {wanted}, got {rig.flywheels}")
     lines = [f"# {_plain(comment)}".rstrip() for comment in comments]
-    lines += ["", f"title = {_word(title)}", *[f"description = {_word(description)}"] * bool(description), f"gravity = {gravity!r}  # m/s^2", "", "# Links, the lowest first: kg, m."]
+    lines += ["", f"title = {_word(title)}", *[f"description = {_word(description)}"] * bool(description)]
+    lines += [f"gravity = {gravity!r}  # m/s^2", *[f"fluid = {_word(rig.fluid)}"] * (rig.displaced is not None)]
+    lines += ["", "# Links, the lowest first: kg, m."]
     for k in range(rig.size):
         lines += ["", "[[links]]", *(f"{key} = {_word(value)}" for key, value in _link(rig, k).items())]
     if support := rig.support._given:
@@ -37,10 +44,23 @@ def _link(rig: Rig, k: int) -> dict[str, Any]:
     pin = {key: float(rig._pin(key)[k]) for key in ("stiffness", "damping")}
     if any(pin.values()):
         found["pin"] = {key: value for key, value in pin.items() if value}
-    if axial := float(rig._turning(1.0)[1][k]):
+    if rig.flywheels is not None and rig.flywheels.spin is not None:
+        found["flywheel"] = _at(rig, rig.flywheels._given, k)
+    elif axial := float(rig._turning(1.0)[1][k]):
+        if not numbers[heavy]:
+            raise ValueError(f"revchain: a scene cannot give link {k} an axial_moment, as it has no {heavy}, got {axial:g}")
         radius = math.sqrt(axial / numbers[heavy])
         found["flywheel"] = {heavy: numbers[heavy], "radius_of_gyration": radius, "spin": 0.0, "driven": True}
+    if rig.displaced is not None:
+        found["displaced"] = _at(rig, rig.displaced._given, k)
+    if rig.drag is not None:
+        found |= _at(rig, {"drag": rig.drag}, k)
     return found
+
+
+def _at(rig: Rig, given: dict[str, Any], k: int) -> dict[str, Any]:
+    """The numbers of link k of columns that may be one number for all."""
+    return {name: np.broadcast_to(column, rig.size)[k].item() for name, column in given.items()}
 
 
 def _word(value: Any) -> str:

@@ -13,7 +13,7 @@ from contextlib import ExitStack, closing, contextmanager, suppress
 from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
-from zipfile import BadZipFile
+from zipfile import ZipFile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from ..results.excel import MOST_LINES, Page, write_workbook
 from ..results.files import OutputError, hdf5_file, naming, written_aside
 from ..results.sheet import Column
+from ..results.storage import WRONG, whole_array
 from ..systems.extras import require
 from ..systems.numbers import count as checked_count
 from ..systems.numbers import file_path, shown
@@ -89,7 +90,7 @@ def sweep(
     ValueError
         If `out` has another extension or cannot hold all points, or `workers` or `chunk` is below 1.
     TypeError
-        If `executor` is not an executor, or `progress` is not callable.
+        If `study` or `out` is not a path, `executor` is not an executor (its class is none), or `progress` is not callable.
     ImportError
         If xarray or a package that writes `out` is missing; the message says how to install it.
 
@@ -120,8 +121,9 @@ def sweep(
         study = Study.from_dict(study)
     elif not isinstance(study, Study):
         study = load_study(study)
-    if executor is not None and not callable(getattr(executor, "submit", None)):
-        raise TypeError(f"{_CALLER}: executor must be a concurrent.futures.Executor, got {shown(executor)}")
+    if executor is not None and (isinstance(executor, type) or not callable(getattr(executor, "submit", None))):
+        wanted = "a concurrent.futures.Executor, such as ThreadPoolExecutor(4)"
+        raise TypeError(f"{_CALLER}: executor must be {wanted}, got {shown(executor)}")
     if progress is not None and not callable(progress):
         raise TypeError(f"{_CALLER}: progress must be a function of two numbers, got {shown(progress)}")
     chunk = None if chunk is None else checked_count(_CALLER, "chunk", chunk)
@@ -230,10 +232,10 @@ def _read_chunks(folder: Path, rows: Rows) -> None:
     for path in sorted(folder.glob(CHUNKS)):
         try:
             start, stop = map(int, path.stem.split("-"))
-            with open(path, "rb") as file, np.load(file) as found:
+            with ZipFile(path) as entries:
                 for name, array in rows.items():  # the status is the last one
-                    array[start:stop] = found[name]
-        except (ValueError, KeyError, EOFError, OSError, RuntimeError, BadZipFile) as error:  # RuntimeError: of zipfile
+                    array[start:stop] = whole_array(entries, f"{name}.npy")
+        except WRONG as error:
             reason = f"{path} cannot be read, and its points are computed again: {error}"
             warnings.warn(reason.replace("\n", " "), stacklevel=3)
             path.unlink()

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
-from .numbers import Floats, integer, link_arrays, mass_or_weight, real, refuse_beyond_memory, shown, word
+from .numbers import Floats, floats, integer, link_arrays, mass_or_weight, real, refuse_beyond_memory, shown, word
 from .numbers import count as checked_count
 from .system import System
 
@@ -427,7 +427,7 @@ class Chain(System):
         """
         caller = "revchain.Chain.with_thread"
         core, at = compiled(caller, self), integer(caller, "pin", pin)
-        made = _core.with_thread(core, real(caller, "length", length), at)
+        made = checked(caller, self.by_mass, _core.with_thread, core, real(caller, "length", length), at)
         names = self._names and (*self._names[:at], "thread", *self._names[at:])
         return self._wrap(made, self.by_mass, names, self.order)
 
@@ -457,7 +457,7 @@ class Chain(System):
         """
         caller = "revchain.Chain.clamped"
         at = integer(caller, "link", link)
-        made = _core.clamped(compiled(caller, self), at)
+        made = checked(caller, self.by_mass, _core.clamped, compiled(caller, self), at)
         names = self._names and (*self._names[:at], " and ".join(self._names[at : at + 2]), *self._names[at + 2 :])
         return self._wrap(made, self.by_mass, names, self.order)
 
@@ -592,13 +592,12 @@ class Chain(System):
         known = {"links", "mass" if by_mass else "weight", "length", "centroid", "gyration_ratio", "gyration_ratio_low"}
         if unknown := sorted(data.keys() - known - {"names", "taper", "order"}):
             raise TypeError(f"there is no {unknown[0]}")
-        heavy = data["mass" if by_mass else "weight"]
-        numbers = [heavy, *(data[name] for name in ("length", "centroid", "gyration_ratio", "gyration_ratio_low"))]
         taper = (real("revchain.Chain.from_dict", "taper", data["taper"]),) if "taper" in data else ()
         caller = "revchain.Chain.from_dict"
         order: Any = word(caller, "order", data.get("order", _FREE_END), _ORDERS)
         way = slice(None, None, 1 if order == _FREE_END else -1)
-        arrays = [np.asarray(number, np.float64) for number in numbers]
+        names_of = ("mass" if by_mass else "weight", "length", "centroid", "gyration_ratio", "gyration_ratio_low")
+        arrays = [floats(caller, name, data[name]) for name in names_of]
         arrays = [np.ascontiguousarray(array[way]) if array.ndim else array for array in arrays]
         size, names = integer(caller, "links", data["links"]), data.get("names")
         names = None if names is None else _checked_names(caller, names, size, order)

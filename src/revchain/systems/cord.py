@@ -356,8 +356,7 @@ class Cord(System):
         data = CordData(*state)
         density = data.density
         if not isinstance(density, float):
-            density = _core.LineDensity.__new__(_core.LineDensity)
-            density.__setstate__(tuple(data.density))
+            density = _density_of(tuple(data.density))
         cord = cls.__new__(cls)
         bob = data.tip_centroid, data.tip_radius_of_gyration
         cord._set(data.length, data.weight, data.tip, density, data.by_mass, dict(data.particles), bob)
@@ -376,16 +375,34 @@ class Cord(System):
 
     @classmethod
     def _from_data(cls, data: dict[str, Any]) -> Cord:
-        by_mass = "mass" in data
-        heavy, hung, many = _NAMES[by_mass]
-        particles = tuple((float(s), float(x)) for s, x in data.get(many, ()))
-        if not isinstance(data.get("density"), list):
-            return cls(**{**data, many: dict(particles)} if particles else data)
-        bob = data.get("tip_centroid", 0.0), data.get("tip_radius_of_gyration", 0.0)
-        return cls._from_state((data["length"], data[heavy], data.get(hung, 0.0), data["density"], by_mass, particles, *bob))
+        caller, (heavy, _, many) = "revchain.Cord.from_dict", _NAMES["mass" in data]
+        given = dict(data)
+        if many in data:
+            pairs = floats(caller, many, data[many])
+            if pairs.ndim != 2 or pairs.shape[1] != 2:
+                wanted = f"pairs of a distance from the free end and a {heavy}"
+                raise ValueError(f"{caller}: {many} must be {wanted}, got {shown(data[many])}")
+            given[many] = dict(pairs.tolist())
+        if isinstance(density := data.get("density"), list):
+            if len(density) != 2:
+                wanted = "a number, or the length and the pieces that to_dict writes for a function"
+                raise ValueError(f"{caller}: density must be {wanted}, got {shown(density)}")
+            state = real(caller, "density[0]", density[0]), floats(caller, "density[1]", density[1])
+            try:
+                given["density"] = _density_of(state)
+            except ValueError as error:
+                raise ValueError(f"{caller}: density: {str(error).partition(': ')[2]}") from None
+        return cls(**given)
 
 
 _NAMES = {True: ("mass", "tip_mass", "masses"), False: ("weight", "tip_weight", "weights")}
+
+
+def _density_of(state: tuple[Any, ...]) -> _core.LineDensity:
+    """The density function with a state that a pickle or `to_dict` stored."""
+    density = _core.LineDensity.__new__(_core.LineDensity)
+    density.__setstate__(state)
+    return density
 
 
 def _not_negative(caller: str, name: str, value: object) -> float:

@@ -268,7 +268,7 @@ class Held(System):
     @classmethod
     def _from_data(cls, data: dict[str, Any]) -> Held:
         given = {name: Support(**value) if name in ("lower", "upper") else value for name, value in data.items()}
-        return cls(from_data(given.pop("of")), **given)  # type: ignore[arg-type]
+        return cls(from_data("revchain.Held.from_dict: of", given.pop("of")), **given)  # type: ignore[arg-type]
 
 
 _End = tuple[float, float, float, float]

@@ -220,11 +220,11 @@ def restored(kind: str, state: Any) -> System:
     return System._kinds[kind]._from_state(state)
 
 
-def from_data(data: dict[str, Any]) -> System:
+def from_data(caller: str, data: dict[str, Any]) -> System:
     """A system of any kind from the data that `to_dict` returned."""
     kind = System._kinds.get(data.get("system", "")) if isinstance(data, dict) else None
     if kind is None:
-        raise ValueError(f'data of a system must have "system": one of {", ".join(System._kinds)}')
+        raise ValueError(f'{caller} must have "system": one of {", ".join(System._kinds)}')
     return kind.from_dict(data)
 
 
