@@ -488,7 +488,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
     ) -> Uncertainty:
         """Return the standard deviations of conical heights and speeds for given standard deviations of the data.
 
-        With ``worst=True`` also return proved bounds of the speeds of all systems whose data lie within the tolerances.
+        With ``worst=True`` also return bounds of the speeds of all systems whose data lie within the tolerances. They are
+        proved, except for cords.
 
         Parameters
         ----------
@@ -514,7 +515,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
             Standard deviations of the data of a cord: of its tip, of the exponent of its density, of the tension that holds
             it.
         worst : bool, optional
-            Whether to find the proved extremes of the speeds as well, in ``.worst``. The given numbers are then
+            Whether to find the extremes of the speeds as well, in ``.worst``. The given numbers are then
             half-widths of tolerances: each datum lies anywhere between its value minus and plus that much.
 
         Returns
@@ -538,7 +539,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         compared with its datum, sample instead. See `Sensitivity` for the data that are constant while one changes. Cost:
         that of the sensitivities, 0.6 microseconds for each link and mode.
 
-        The extremes of ``worst=True`` are to all orders, and rounding is included. They are exact, reached at a corner
+        The extremes of ``worst=True`` are to all orders, and rounding is included; those of cords rest on `error_bound`,
+        which is not proved for them. They are exact, reached at a corner
         of the box, for most tolerances of masses, lengths in proportion, radii of gyration and of the support; for
         independent lengths and centroids of bodies they may be wider than the speeds reached: see `WorstCase.gap`. Cost
         for each mode: 10 milliseconds for ten links, 0.6 seconds for a hundred; more where the box must be divided.
