@@ -13,6 +13,7 @@ from .. import _core
 from ..systems.numbers import Floats, Numbers, Whole, boolean, floats, one_positive, place_of, refuse_beyond_memory, refuse_where
 from .base import Field, Result, Row, UnavailableError, asked_in
 from .moving import Moving
+from .sheet import in_unit
 
 if TYPE_CHECKING:
     from .sensitivity import Sensitivity, Uncertainty
@@ -704,7 +705,10 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         if self.has_momentum:
             lines.append("negative speeds: backward, against wheels whose momentum is positive")
         links = self.system._link_numbers[self.slack_link] if len(self.slack_link) else ()
-        slack = [f"links[{k}] goes slack at {at:.6g} rad/s" for k, at in zip(links, self.slack_speed, strict=True)]
+        unit = self._speed_unit or "rad/s"
+        at = in_unit(self.slack_speed, unit)
+        of = "a period of " if unit == "s" else ""
+        slack = [f"links[{k}] goes slack at {of}{each:.6g} {unit}" for k, each in zip(links, at, strict=True)]
         lines += slack if len(slack) <= 5 else [*slack[:4], f"{len(slack) - 4} more go slack: slack_link, slack_speed"]
         if others := self.other_available:
             lines.append(f"{others:,} solution{' is not a steady motion' if others == 1 else 's are not steady motions'}: other")
@@ -771,7 +775,7 @@ def speed_bound_of_exponents(exponent: Complex, error: Floats, turns: bool) -> F
     speed = np.abs(exponent.imag)
     with np.errstate(divide="ignore", invalid="ignore"):
         off = error * np.abs(exponent) / (1 - error) * (1 + 4e-15)  # whichever exponent, computed or exact, error relates to
-        bound = np.where(off < speed, off / (speed - off) * (1 + 1e-15), np.inf)
+        bound = np.where((error < 1) & (off < speed), off / (speed - off) * (1 + 1e-15), np.inf)
     return np.where((speed == 0) & np.isfinite(error) & (not turns), 0.0, bound)
 
 
