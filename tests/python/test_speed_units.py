@@ -361,3 +361,14 @@ def test_the_note_of_slack_links_speaks_the_unit():
     assert "links[0] goes slack at 31.2155 rpm" in str(rc.modes(rig, angular_speed=("1 rpm", "400 rpm")))
     assert "links[0] goes slack at a period of 1.92212 s" in str(rc.modes(rig, angular_speed=("60 s", "0.15 s")))
     assert "links[0] goes slack at 3.26888 rad/s" in str(rc.modes(rig))
+
+
+def test_messages_quote_what_was_written():
+    chain = rc.Chain(mass=[1.0, 3.0], length=1.0)
+    with pytest.raises(ValueError, match=r"low < high, got \('60 rpm', '20 rpm'\)"):
+        rc.modes(chain, angular_speed=("60 rpm", "20 rpm"))
+    for system in (chain, rc.Cord(1.0)):
+        with pytest.raises(ValueError, match="^revchain.count_modes: angular_speed must be positive and finite, got '-2 s'"):
+            rc.count_modes(system, angular_speed="-2 s")
+    with pytest.raises(ValueError, match="angular_speed must be positive and finite, got '-2 rpm'"):
+        rc.steady_shapes(chain, angular_speed="-2 rpm")
