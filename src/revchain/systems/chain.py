@@ -606,7 +606,7 @@ class Chain(System):
 
 
 def are_rods(length: ArrayLike, centroid: ArrayLike, radius_of_gyration: ArrayLike) -> Any:
-    """Return, for each link, whether it is a uniform rod, to 1e-12 of its centroid and radius of gyration."""
+    """Return, for each link, whether it is a uniform rod; rounded numbers count as equal."""
     half, spread = np.multiply(length, 0.5), np.divide(length, math.sqrt(12))
     return np.isclose(centroid, half, rtol=1e-12, atol=0.0) & np.isclose(radius_of_gyration, spread, rtol=1e-12, atol=0.0)
 
