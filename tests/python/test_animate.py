@@ -124,7 +124,7 @@ def test_a_swing_is_where_it_is_at_each_time(kind):
 def test_bodies_are_on_their_links():
     bodies = film(rc.modes(WHEELS)).bodies
     assert bodies.link.tolist() == [0, 1, 2, 3] and np.allclose(bodies.along, 0.5)
-    assert bodies.wheel.tolist() == [1, -1, 0, 0]
+    assert bodies.wheel.tolist() == [1, -1, 1, 1]  # two are at rest
     assert not bodies.rod.any()  # a rod ends at its lower pin
     assert film(rc.modes(rc.Chain.uniform_rods(3))).bodies.rod.tolist() == pytest.approx([0.5] * 3)
     assert film(rc.modes(CHAIN)).names == ("links[0] load", "links[1] $hook$", "links[2] </script>")
@@ -352,3 +352,11 @@ def test_rings_of_a_thinned_film_stay_with_their_links():
     found = film(rc.modes(rc.Chain(mass=1.0, length=0.01, centroid=centroid, radius_of_gyration=gyration), 1))
     thin = found.thinned(found.frames, 401)
     assert 0 < thin.rings.sum() < 400 and np.array_equal(thin.rings, found.rings[::2])
+
+
+def test_a_response_says_its_scale_at_one_speed():
+    chain = rc.Chain(mass=[1.0, 2.0, 1.0], length=1.0)
+    one = film(rc.response(chain, angular_speed=6.0, support_radius=3.0)).figures[0]
+    assert one.captions[0].endswith(f"offsets {one.scale[0]:.3g}:1") and one.scale[0] != 1
+    slow = film(rc.response(chain, angular_speed=[0.01, 0.011], support_radius=3.0)).figures[0]
+    assert all("offsets 0.25:1" in caption for caption in slow.captions)

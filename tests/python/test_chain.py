@@ -246,3 +246,9 @@ def test_data_are_checked_as_arguments_are():
         rc.Rig.from_dict({**rig, "flywheel": {"momentum": 1.0}})
     with pytest.raises(ValueError, match="drag must be a number or an array"):
         rc.Rig(rc.Chain(mass=[1.0] * 3, length=1.0), drag=[0.0, 0.0])
+
+
+def test_a_rod_is_known_to_rounding():
+    long = 0.1 + 0.2
+    assert "rod, 1 kg" in rc.Chain(mass=1.0, length=long, centroid=0.15, radius_of_gyration=long / 12**0.5).describe()
+    assert "body, 1 kg" in rc.Chain(mass=1.0, length=0.3, centroid=0.15 + 1e-9, radius_of_gyration=0.3 / 12**0.5).describe()

@@ -242,3 +242,12 @@ def test_an_error_of_a_function_comes_through(ask):
 
     with pytest.raises(KeyError, match="no such place"):
         ask(broken)
+
+
+def test_stability_of_branches_is_refused_at_once():
+    for cord, most in ((rc.Cord(1.0), 0.1), (rc.Held(rc.Cord(1.0), span=0.5), 10.0)):
+        with pytest.raises(ValueError, match=r"^revchain.branches: stability is not offered for the branches of a cord"):
+            rc.branches(cord, max_angular_speed=most, stability=True)
+    rig = rc.Rig(rc.Chain(mass=[1.0, 1.0], length=1.0), support=rc.Support(stiffness=100.0), pins=rc.Pin(damping=1.0))
+    with pytest.raises(ValueError, match=r"^revchain.branches: with dashpots a support"):
+        rc.branches(rig, max_angular_speed=6.0, stability=True)

@@ -101,7 +101,7 @@ def test_equilibria_at_a_speed(tmp_path):
     assert found.plot(speed="rad/s").get_xlabel() == "speed (rad/s)"
     dots = [line for line in found.plot().lines if line.get_marker() == "o"]
     places = [(dot.get_xdata()[0], dot.get_ydata()[0]) for dot in dots]
-    np.testing.assert_allclose(places, [(150 / math.pi, 0.0), (150 / math.pi, 1.12)], rtol=4e-16)
+    np.testing.assert_allclose(places, [(5.0, 0.0), (5.0, 1.12)], rtol=4e-16)
     assert governor.describe() == "governor: 2 balls of 4 kg on arms of 1.4 m; lower links of 1.4 m; sleeve of 3 kg"
 
 

@@ -119,6 +119,7 @@ def test_speeds_of_which_nothing_is_known():
     s, off = np.array([-1 + 1e-3j, -1 + 1e-3j, -1 + 0j, -1 + 0j]), np.array([1e-2, np.inf, 1e-16, np.inf])
     assert speed_bound_of_exponents(s, off, False).tolist() == [np.inf, np.inf, 0.0, np.inf]
     assert speed_bound_of_exponents(s, off, True).tolist() == [np.inf] * 4
+    assert speed_bound_of_exponents(np.array([-1 + 2j]), np.array([2.0]), False).tolist() == [np.inf]
     critical = rc.modes(rc.Rig(rc.Chain(mass=1.0, length=1.0), pins=rc.Pin(damping=6.0)), gravity=9.0)
     assert not np.isfinite(critical.error_bound).any() and not np.isfinite(critical.speed_error_bound).any()
 

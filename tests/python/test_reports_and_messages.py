@@ -154,12 +154,15 @@ def test_words_for_a_trolley(tmp_path):
 
 
 LINK = "links = [{mass = 1, length = 2}]\n"
+MANY = "[" + ", ".join(f'"{k} rpm"' for k in range(30, 200, 10)) + "]"
 SEVERAL = 'for several speeds write a study with [vary."ask.shapes.angular_speed"] and values = ["8 rpm", "10 rpm"]: revchain sweep'
 
 
 @pytest.mark.parametrize(("text", "says"), [
     (LINK + '[ask.shapes]\nangular_speed = ["8 rpm", "10 rpm"]\n', SEVERAL),
     (LINK + '[ask.shapes]\nangular_speed = "8 rpm; 10 rpm"\n', SEVERAL),
+    (LINK + '[ask.shapes]\nangular_speed = "1e1 rpm, 2e1 rpm"\n', 'values = ["1e1 rpm", "2e1 rpm"]: revchain sweep'),
+    (LINK + f"[ask.shapes]\nangular_speed = {MANY}\n", f"values = {MANY}: revchain sweep"),
     (LINK + '[ask.swing]\noffset = [0.1]\ntime = "0 to 30 in 301"\n', "is written {from = 0, to = 30, steps = 301}, got"),
     (LINK + '[ask.swing]\noffset = [0.1]\ntime = "0 s to 30 s"\n', 'is written {from = "0 s", to = "30 s"}, got'),
     (LINK + '[ask.swing]\nsupport_time = "2 s"\nsupport_velocity = [1, 0]\n', 'write ["0 s", "2 s"]'),
@@ -198,3 +201,9 @@ def test_only_results_that_can_be_drawn_list_plot():
     uncertain = found.uncertainty(length=0.01, worst=True)
     for result in (uncertain, uncertain.worst):
         assert "plot" not in dir(result) and not hasattr(result, "plot") and "to_dict" in dir(result)
+
+
+def test_a_decimal_comma_is_no_list_of_speeds(tmp_path):
+    with pytest.raises(rc.SceneError) as error:
+        of(tmp_path, LINK + '[ask.shapes]\nangular_speed = "3,5 rad/s"\n')
+    assert 'write "3.5 rad/s"' in str(error.value) and "several speeds" not in str(error.value)

@@ -351,3 +351,13 @@ def test_plots(chain):
     ):
         with pytest.raises(ValueError, match=words):
             draw()
+
+
+def test_a_table_leaves_out_what_its_pins_do_not_tell():
+    chain = rc.Chain(weight=[1.0] * 3, length=1.0)
+    none = rc.response(chain, angular_speed=3.0, support_radius=0.1, pins=[])
+    assert "nan" not in str(none) and "off axis" not in str(none) and "farthest" not in str(none)
+    assert none.to_xarray().sizes["pin"] == 0
+    some = str(rc.response(chain, angular_speed=3.0, support_radius=0.1, pins=[3]))
+    assert "pin 3 off axis" in some and "farthest of these pins" in some and "resonance" not in some
+    assert "nan: at a resonance" in str(rc.response(rc.Chain(weight=1.0, length=1.0), conical_height=1.0))

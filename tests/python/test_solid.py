@@ -205,6 +205,10 @@ def test_wheels_and_rings(tmp_path):
     assert [mesh for name, mesh in drawn if name.startswith("wheel of links[0]")][:5] == ["rim", "ball", *["cylinder"] * 3]
     rim = next(node for node in file.nodes if node.name.startswith("wheel of"))
     assert rim.scale == pytest.approx([0.2 * 2**0.5] * 3)
+    resting = rc.Rig(rc.Chain.uniform_rods(9, mass=1.0), flywheels=rc.Flywheel(mass=[0.01] + [0.0] * 8, radius_of_gyration=0.05, spin=0.0))
+    drawn, _ = meshes_of(rc.modes(resting, 1), tmp_path / "resting.glb")
+    assert {name for name, mesh in drawn if mesh == "rim"} == {"wheel of links[0]"}
+    assert [mesh for name, mesh in drawn if name.startswith("links[")] == ["cylinder"] + ["ring"] * 8
     drawn, _ = meshes_of(rc.modes(rc.Chain.uniform_rods(8), 1), tmp_path / "rings.glb")
     assert [mesh for name, mesh in drawn if name.startswith("links[")] == ["ring"] * 8
     drawn, _ = meshes_of(rc.modes(rc.Chain.uniform_rods(7), 1), tmp_path / "bars.glb")

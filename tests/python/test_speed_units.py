@@ -347,3 +347,28 @@ def test_shapes_and_drag_at_two_speeds_are_refused():
             rc.Study.from_dict({"scene": scene, "vary": vary, "find": ["shapes", "drag"]})
     assert rc.Study.from_dict({"scene": scene, "vary": one, "find": ["shapes"]}).points == 2
     assert rc.Study.from_dict({"scene": scene, "vary": {**one, **other}, "find": ["shapes", "drag"]}).points == 4
+
+
+def test_equilibria_of_a_governor_speak_the_unit():
+    found = rc.SleeveGovernor(ball_mass=2.3, arm=0.33, lower_arm=0.33, sleeve_mass=9.5122).equilibria("2.1 Hz")
+    assert "2.10000 Hz (13.1947 rad/s)" in str(found)
+    axes = found.plot()
+    assert axes.get_xlabel() == "frequency (Hz)" and axes.lines[-1].get_xdata()[0] == pytest.approx(2.1)
+
+
+def test_the_note_of_slack_links_speaks_the_unit():
+    rig = rc.Rig(rc.Chain(mass=[1.0, 1.0], length=1.0), flywheels=rc.Flywheel(momentum=[-3.0, 0.0]))
+    assert "links[0] goes slack at 31.2155 rpm" in str(rc.modes(rig, angular_speed=("1 rpm", "400 rpm")))
+    assert "links[0] goes slack at a period of 1.92212 s" in str(rc.modes(rig, angular_speed=("60 s", "0.15 s")))
+    assert "links[0] goes slack at 3.26888 rad/s" in str(rc.modes(rig))
+
+
+def test_messages_quote_what_was_written():
+    chain = rc.Chain(mass=[1.0, 3.0], length=1.0)
+    with pytest.raises(ValueError, match=r"low < high, got \('60 rpm', '20 rpm'\)"):
+        rc.modes(chain, angular_speed=("60 rpm", "20 rpm"))
+    for system in (chain, rc.Cord(1.0)):
+        with pytest.raises(ValueError, match="^revchain.count_modes: angular_speed must be positive and finite, got '-2 s'"):
+            rc.count_modes(system, angular_speed="-2 s")
+    with pytest.raises(ValueError, match="angular_speed must be positive and finite, got '-2 rpm'"):
+        rc.steady_shapes(chain, angular_speed="-2 rpm")

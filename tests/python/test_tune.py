@@ -225,3 +225,8 @@ def test_a_speed_without_a_conical_height_in_double_precision(wanted):
         for path in ("length", "links[0].length") if system is PAIR else ("length",):
             with pytest.raises(ValueError, match=r"gravity / angular_speed\*\*2 must be positive and finite, got (inf|0)"):
                 rc.tune(system, vary=path, angular_speed=wanted)
+
+
+def test_no_value_is_said_in_words():
+    found = rc.tune(rc.Chain(mass=[1.0, 3.0], length=1.0), vary="links[0].length", mode=1, angular_speed="2 s")
+    assert found.status == "no_value" and str(found).startswith("Tuned: no value of links[0].length in the range gives the speed")

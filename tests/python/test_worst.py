@@ -381,3 +381,10 @@ def test_tolerances_that_reach_0_or_a_slack_cord_are_refused_by_name():
     cord = rc.Held(rc.Cord(1.0, mass=1.0), tension=10.0)
     with pytest.raises(ValueError, match="Modes.uncertainty: the least tension .* the greatest weight 10.297, .* got 10"):
         rc.modes(cord, 2).uncertainty(mass="5 %", worst=True)
+
+
+def test_the_heights_of_a_cord_lie_within_their_error_bounds():
+    cord = rc.Cord(1.0, mass=1.0, density=lambda s: 1 + s**-0.7)
+    worst = rc.modes(cord, 3).uncertainty(length=0.0, worst=True).worst
+    true = [0.84491174470062873758, 0.077261619126824963174, 0.026259849068216951646]  # Frobenius series, 40 digits
+    assert (worst.lowest_conical_height < true).all() and (true < worst.highest_conical_height).all()

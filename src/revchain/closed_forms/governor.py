@@ -14,9 +14,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
-from ..results.base import Field, Listed, Result
+from ..results.base import Field, Listed, Result, asked_in
 from ..results.sheet import Column, Sheet, speed_text
 from ..systems.numbers import STANDARD_GRAVITY, Floats, floats, numbers, one_positive, real
+from ..systems.units import speed_unit
 from .solved import Solved
 from .table import FloatOrArray, described
 
@@ -259,7 +260,7 @@ class SleeveGovernor(Solved, row="point"):
             raise ValueError(f"{caller}: cannot prove that no equilibrium is missed at angular_speed {angular_speed}")
         columns = dict(zip(GovernorPoints._fields, found.reshape(-1, len(GovernorPoints._fields)).T, strict=True))
         given = {"angular_speed": speed, "stable": columns["stable"] > 0}
-        return GovernorEquilibria._made(governor=self, **columns | given)
+        return asked_in(speed_unit(angular_speed), GovernorEquilibria._made(governor=self, **columns | given))
 
     def describe(self) -> str:
         """Return a description of the governor in words.

@@ -56,7 +56,7 @@ class Bodies:
     along: Floats = field(default_factory=lambda: np.zeros(0))  # from the upper pin, over the length of the link
     size: Floats = field(default_factory=lambda: np.zeros(0))  # 0 to 1, by the cube root of the mass
     rod: Floats = field(default_factory=lambda: np.zeros(0))  # half the length of a uniform rod, over the link; 0: it is no rod
-    wheel: Floats = field(default_factory=lambda: np.zeros(0))  # 1 or -1 where a flywheel has momentum
+    wheel: Floats = field(default_factory=lambda: np.zeros(0))  # where there is a flywheel 1, or -1 if its momentum is negative
     floats: NDArray[np.bool_] = field(default_factory=lambda: np.zeros(0, bool))
     gyration: Floats = field(default_factory=lambda: np.zeros(0))  # radius, m
     form: tuple[str, ...] = ()  # a key of the table of forms, or empty

@@ -203,7 +203,9 @@ def _(found: Response, choices: Choices) -> Film:
     scale = np.minimum(largest / np.quantile(most, 0.75), largest / most)
     if speed.size == 1:
         label = "carried round" if found.force is None else "pushed"
-        return _turning(found, [(label, offset[0], height, float(speed[0]), float(scale[0]))], choices)
+        film = _turning(found, [(label, offset[0], height, float(speed[0]), float(scale[0]))], choices)
+        captions = tuple(each + _larger(float(scale[0])) for each in film.figures[0].captions)
+        return replace(film, figures=(replace(film.figures[0], captions=captions),))
     rows = np.broadcast_to(height, offset.shape)
     stages = _Stages(np.arange(speed.size, dtype=float), offset * scale[:, None] + 0j, rows, speed, scale)
     return _swept(found, ["carried round" if found.force is None else "pushed"], [stages], choices, "largest distance from axis (m)", [most], "Speed")
@@ -239,9 +241,8 @@ def _swept(
         speed, scale = (np.interp(at, each.way, values) for values in (each.speed, each.scale))
         turned = np.cumsum((speed[1:] + speed[:-1]) / 2) * time_scale / choices.frames_per_second
         captions = [text.strip() for text in with_speeds([label] * frames, speed.tolist(), CAPTION_UNITS)]
-        if np.ptp(each.scale):
-            larger = [f"\noffsets {by:.3g}:1" for by in scale.tolist()]
-            captions = list(map(str.__add__, captions, larger))
+        if (each.scale != 1).any():
+            captions = list(map(str.__add__, captions, map(_larger, scale.tolist())))
         offset = _between(at, each.way, each.offset)
         height = _between(at, each.way, each.height)
         figures.append(Figure(label, offset, height, scale, np.concatenate([[0.0], turned]), speed, tuple(captions)))
@@ -255,6 +256,11 @@ def _swept(
         said = [f"{progress}: {digits(now, 3)} rad/s" for now in x[0].tolist()]
     chart = Chart("speed (rad/s)", quantity, tuple(lines), tuple(x), tuple(y))
     return _film(result, figures, choices, time_scale, chart, said)
+
+
+def _larger(by: float) -> str:
+    """The line of a caption that says how much larger than the links offsets are drawn."""
+    return f"\noffsets {by:.3g}:1"
 
 
 def _between(at: Floats, way: Floats, rows: Any) -> Any:
@@ -361,18 +367,18 @@ def _bodies(system: Any, base: Any) -> Bodies:
         one, none = np.ones(1), np.zeros(1)
         return Bodies(np.zeros(1, int), one, one, none, none, np.zeros(1, bool), none, ("",))
     weight = np.broadcast_to(base._compiled.weight, base.size)
-    momentum = system._momentum(1.0)
-    link = np.flatnonzero((weight > 0) | (momentum != 0))
+    wheels = system._wheels
+    link = np.flatnonzero((weight > 0) | wheels)
     arrays = {
         "along": base.centroid / base.length,
         "size": np.cbrt(weight / weight.max()),
         "rod": rods_of(base) / base.length,
-        "wheel": np.sign(momentum),
+        "wheel": np.where(system._momentum(1.0) < 0, -1.0, wheels),
         "floats": floating(system),
         "gyration": base.radius_of_gyration,
     }
     names = base.names or ("",) * base.size
-    form = tuple(form_of(names[k]) or ("wheel" if momentum[k] else "") for k in link.tolist())
+    form = tuple(form_of(names[k]) or ("wheel" if wheels[k] else "") for k in link.tolist())
     return Bodies(link, **{name: np.asarray(array)[link] for name, array in arrays.items()}, form=form)
 
 
@@ -381,4 +387,4 @@ def _rings(system: Any, base: Any) -> Any:
     if system._is_cord:
         return False
     rod = are_rods(base.length, base.centroid, base.radius_of_gyration)
-    return rod & (np.count_nonzero(rod) >= FEWEST_RINGS) & ~system._stands & ~(system._momentum(1.0) != 0)
+    return rod & (np.count_nonzero(rod) >= FEWEST_RINGS) & ~system._stands & ~system._wheels

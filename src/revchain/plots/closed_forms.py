@@ -274,7 +274,7 @@ def plot_governor_equilibria(found: GovernorEquilibria, ax: Axes | None = None, 
     True
     """
     unit = SpeedUnit("revchain.GovernorEquilibria.plot", speed, found, "rpm")
-    ax = plot_sleeve_governor(found.governor, ax, speed=speed)
+    ax = plot_sleeve_governor(found.governor, ax, speed=unit.unit)
     given, at = found.governor._given, unit.of(found.angular_speed)
     ax.axvline(at, color="0.6", linewidth=0.9, zorder=0)
     places = found.lift if given["sleeve_arm"] or given["lower_arm"] else found.ball_radius

@@ -88,7 +88,7 @@ class Straight:
     def beside(self) -> float:
         """Return how far bodies and flywheels reach sideways, in units of the axis."""
         reach = [extent_of(form)[0] * unit * metre for form, unit, metre in self._forms.values()]
-        return max([*reach, WHEEL * self.system.has_momentum])
+        return max([*reach, WHEEL * bool(self.system._wheels.any())])
 
     def room(self, narrow: float = 1.0) -> tuple[float, float]:
         """Return the room left of the axis for parts and right of it for names, in data units, in columns `narrow` times
@@ -237,7 +237,7 @@ class Straight:
         dots = heavy & ~named & ~long
         ax.scatter(across[dots], middle[dots], s=size[dots], c=face[dots], edgecolors=LINK, zorder=3)
         ax.plot(across[:-1], level[1:-1], **JOINT)
-        for wheel in np.flatnonzero((system._momentum(1.0) != 0) & ~named).tolist():
+        for wheel in np.flatnonzero(system._wheels & ~named).tolist():
             ends = across[wheel] - WHEEL, across[wheel] + WHEEL
             ax.hlines(middle[wheel], *ends, color=BACKWARD if backward[wheel] else FORWARD, linewidth=4.0, zorder=3)
         if names := self.names():

@@ -250,6 +250,8 @@ def branches(
     if most < 0:
         raise ValueError(f"{caller}: budget must not be negative, got {shown(budget)}")
     postures, judged = [system], boolean(caller, "stability", stability)
+    if judged and system._is_cord:
+        raise ValueError(f"{caller}: stability is not offered for the branches of a cord; leave it out and use shape.stability()")
     if not boolean(caller, "hanging_only", hanging_only):
         postures = _postures(caller, system)
     diagrams = []
@@ -260,8 +262,11 @@ def branches(
     for branch in diagram:
         _ended(branch, max_angular_speed)
     if judged:
-        for branch in diagram:
-            branch.verdict  # noqa: B018  it is stored when first read
+        try:
+            for branch in diagram:
+                branch.verdict  # noqa: B018  it is stored when first read
+        except ValueError as error:
+            raise ValueError(f"{caller}: {str(error).partition(': ')[2]}") from None
     return diagram
 
 

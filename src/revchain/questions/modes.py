@@ -394,8 +394,11 @@ def _window(name: str, window: object) -> Pair:
     ends = [real(_CALLER, f"{name} (each end)", end) for end in window]
     if len(ends) != 2:
         raise ValueError(f"{_CALLER}: {name} must be a pair (low, high), got {shown(window)}")
-    if has_units(window) and speed_unit(window) == "s":  # a long period is a low speed
-        ends.sort()
+    if has_units(window):
+        if speed_unit(window) == "s":  # a long period is a low speed
+            ends.sort()
+        if not 0 <= ends[0] < ends[1]:
+            raise ValueError(f"{_CALLER}: {name} must be a pair (low, high), 0 <= low < high, got {shown(window)}")
     return ends[0], ends[1]
 
 
@@ -466,6 +469,7 @@ def count_modes(
         core, g = compiled(caller, of), positive(caller, "gravity", gravity)
         if speed is None:
             return _core.count_modes(core, floats(caller, "conical_height", height))[()]
+        speed = positive(caller, "angular_speed", angular_speed)  # type: ignore[arg-type]
         return _core.count_modes_at_speed(core, *together(caller, angular_speed=speed, gravity=g))[()]
     one = one_positive(caller, "gravity", gravity)
     if kind == "rig" and of.is_damped:
@@ -473,7 +477,7 @@ def count_modes(
         raise ValueError(f"{caller}: {what}; take them from modes(rig)")
     if kind == "rig" and speed is not None:
         return _core.count_rig_modes(of._under(one), speed, False, one)[()]
-    height = positive(caller, "conical_height", height) if speed is None else one / positive(caller, "angular_speed", speed) ** 2
+    height = positive(caller, "conical_height", height) if speed is None else one / positive(caller, "angular_speed", angular_speed) ** 2  # type: ignore[arg-type]
     if kind == "rig":
         return _core.count_rig_modes(of._under(one), height, True, one)[()]
     if kind == "cord":

@@ -13,6 +13,7 @@ from .. import _core
 from ..systems.numbers import Floats, Numbers, Whole, boolean, floats, one_positive, place_of, refuse_beyond_memory, refuse_where
 from .base import Field, Result, Row, UnavailableError, asked_in
 from .moving import Moving
+from .sheet import in_unit
 
 if TYPE_CHECKING:
     from .sensitivity import Sensitivity, Uncertainty
@@ -488,7 +489,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
     ) -> Uncertainty:
         """Return the standard deviations of conical heights and speeds for given standard deviations of the data.
 
-        With ``worst=True`` also return proved bounds of the speeds of all systems whose data lie within the tolerances.
+        With ``worst=True`` also return bounds of the speeds of all systems whose data lie within the tolerances. They are
+        proved, except for cords.
 
         Parameters
         ----------
@@ -514,7 +516,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
             Standard deviations of the data of a cord: of its tip, of the exponent of its density, of the tension that holds
             it.
         worst : bool, optional
-            Whether to find the proved extremes of the speeds as well, in ``.worst``. The given numbers are then
+            Whether to find the extremes of the speeds as well, in ``.worst``. The given numbers are then
             half-widths of tolerances: each datum lies anywhere between its value minus and plus that much.
 
         Returns
@@ -538,7 +540,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         compared with its datum, sample instead. See `Sensitivity` for the data that are constant while one changes. Cost:
         that of the sensitivities, 0.6 microseconds for each link and mode.
 
-        The extremes of ``worst=True`` are to all orders, and rounding is included. They are exact, reached at a corner
+        The extremes of ``worst=True`` are to all orders, and rounding is included; those of cords rest on `error_bound`,
+        which is not proved for them. They are exact, reached at a corner
         of the box, for most tolerances of masses, lengths in proportion, radii of gyration and of the support; for
         independent lengths and centroids of bodies they may be wider than the speeds reached: see `WorstCase.gap`. Cost
         for each mode: 10 milliseconds for ten links, 0.6 seconds for a hundred; more where the box must be divided.
@@ -702,7 +705,10 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         if self.has_momentum:
             lines.append("negative speeds: backward, against wheels whose momentum is positive")
         links = self.system._link_numbers[self.slack_link] if len(self.slack_link) else ()
-        slack = [f"links[{k}] goes slack at {at:.6g} rad/s" for k, at in zip(links, self.slack_speed, strict=True)]
+        unit = self._speed_unit or "rad/s"
+        at = in_unit(self.slack_speed, unit)
+        of = "a period of " if unit == "s" else ""
+        slack = [f"links[{k}] goes slack at {of}{each:.6g} {unit}" for k, each in zip(links, at, strict=True)]
         lines += slack if len(slack) <= 5 else [*slack[:4], f"{len(slack) - 4} more go slack: slack_link, slack_speed"]
         if others := self.other_available:
             lines.append(f"{others:,} solution{' is not a steady motion' if others == 1 else 's are not steady motions'}: other")
@@ -769,7 +775,7 @@ def speed_bound_of_exponents(exponent: Complex, error: Floats, turns: bool) -> F
     speed = np.abs(exponent.imag)
     with np.errstate(divide="ignore", invalid="ignore"):
         off = error * np.abs(exponent) / (1 - error) * (1 + 4e-15)  # whichever exponent, computed or exact, error relates to
-        bound = np.where(off < speed, off / (speed - off) * (1 + 1e-15), np.inf)
+        bound = np.where((error < 1) & (off < speed), off / (speed - off) * (1 + 1e-15), np.inf)
     return np.where((speed == 0) & np.isfinite(error) & (not turns), 0.0, bound)
 
 

@@ -135,7 +135,7 @@ class Response(Result, Moving):
     def _sheet(self, brief: bool = False) -> Sheet:
         speed = self.angular_speed.reshape(-1)
         pins = np.atleast_1d(self.pins)
-        offset = self.offset.reshape(speed.size, pins.size) if pins.size else np.full((speed.size, 1), np.nan)
+        offset = self.offset.reshape(speed.size, pins.size)
         size = np.abs(offset)
         farthest = size.max(axis=1, initial=0.0)
         pin = int(pins[0]) if pins.size else 0
@@ -145,18 +145,20 @@ class Response(Result, Moving):
             *speed_columns(speed, 5),
             Column("modes_below", self.modes_below.reshape(-1), "modes below"),
         ]
-        if damped:
+        if pins.size and damped:
             columns += [
                 Column(f"{name.replace(' ', '_')}_amplitude", size[:, 0], f"{name} off axis (m)", 5),
                 Column(f"{name.replace(' ', '_')}_phase", np.angle(offset[:, 0]), "ahead (°)", 4, shown=np.degrees(np.angle(offset[:, 0])), unit="rad"),
             ]
-        else:
+        elif pins.size:
             columns.append(Column(f"{name.replace(' ', '_')}_offset", offset[:, 0], f"{name} off axis (m)", 5))
-        if self.amplification is not None:
-            first = self.amplification.reshape(offset.shape)[:, 0] if pins.size else np.full(speed.size, np.nan)
+        if pins.size and self.amplification is not None:
+            first = self.amplification.reshape(offset.shape)[:, 0]
             columns.append(Column("first_pin_amplification", np.abs(first) if damped else first, "over support", 4))
+        if pins.size:
+            every = np.unique(pins).size == self.system.size + 1
+            columns.append(Column("largest_offset", farthest, f"farthest {'pin' if every else 'of these pins'} (m)", 5))
         columns += [
-            Column("largest_offset", farthest, "farthest pin (m)", 5),
             Column(
                 "support_force", np.abs(self.support_force).reshape(-1) if damped else self.support_force.reshape(-1),
                 f"pull on support{' (N)' if self.system.by_mass else ''}", 5,
@@ -170,8 +172,9 @@ class Response(Result, Moving):
             columns.append(Column("support_force_error", self.support_force_error.reshape(-1)))
         columns.append(Column("offset", offset, axes=("pin",), unit="m"))
         drive = "support" if self.force is None else "force"
+        lost = "; nan: at a resonance" if self.resonant.any() else ""
         notes = [
-            f"ahead of the {drive}; negative: it lags" if damped else f"negative: opposite to the {drive}; nan: at a resonance",
+            (f"ahead of the {drive}; negative: it lags" if damped else f"negative: opposite to the {drive}") + lost,
             f"error {'bound' if self.error_estimate is None else 'estimate'}: rounding error over the largest offset; pull: "
             "outward force on the support",
             f"steady motion of small amplitude, {'with' if damped else 'without'} damping",

@@ -67,8 +67,8 @@ class Moving:
         Notes
         -----
         Between two points of a branch, and two speeds of a response, offsets and heights are interpolated. So are offsets
-        between two times of a swing that has an `error_estimate`. A response is drawn smaller where it exceeds the picture;
-        the caption says by how much. A page has 600 KB for its viewer,
+        between two times of a swing that has an `error_estimate`. Offsets of a response are drawn larger or smaller than they
+        are; the caption says by how much. A page has 600 KB for its viewer,
         three.js, and four thirds of the size of the ``.glb`` file. On it, figures that only turn do so without end.
 
         Examples

@@ -228,7 +228,7 @@ class Uncertainty(Result, row="mode", title="Standard deviations"):
         left=True,
     )
     worst: Field[WorstCase | None] = Field(
-        "With ``worst=True``: the proved lowest and highest speeds over the box of tolerances, else None.", joined=True
+        "With ``worst=True``: bounds of the speeds over the box of tolerances, proved except for cords; else None.", joined=True
     )
 
     def _sheet(self, brief: bool = False) -> Sheet:

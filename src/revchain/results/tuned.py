@@ -57,5 +57,7 @@ class Tuned(Result, row="value", title="Tuned: {summary}", good="status"):
     summary: Field[str] = Field("The result in words.", lambda t: t._words())
 
     def _words(self) -> str:
+        if self.status == "no_value":
+            return f"no value of {self.vary} in the range gives the speed"
         found = f"= {self.value:.6g}" if self.value is not None else self.status.replace("_", " ")
         return f"{self.vary} {found}{', all found' if self.complete else ''}"

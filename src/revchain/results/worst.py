@@ -21,15 +21,17 @@ BOXES = 33  # examined at most for each bound: the box of tolerances, its halves
 MOST_LINKS = 100
 SLIGHT = 1e-9  # of a speed: a proved range that is only rounding
 CLOSE = 0.05  # of the range of a speed: the gap of a result that is a success
+_LEAST_ERROR = 1e-13  # of a height of a cord, relative; also covers the rounding of data and of ratios of mass
 _PARTS = 128  # of the interval of the ratio of a cord's tip to its mass
 _OF_SUPPORT = {"stiffness": -2, "support_mass": -1}  # places in the data of a `Family`
 _COLUMNS = ("mass", "length", "centroid", "radius_of_gyration")
 
 
 class WorstCase(Result, row="mode", title="{_words}", notes=("{_remarks}",)):
-    """Proved bounds of the speeds of k modes whose data lie anywhere in a box of tolerances.
+    """Bounds of the speeds of k modes whose data lie anywhere in a box of tolerances.
 
-    No system in the box has a speed outside of `lowest_angular_speed` and `highest_angular_speed`. The speeds
+    No system in the box has a speed outside of `lowest_angular_speed` and `highest_angular_speed`. For chains and rigs
+    this is proved. For cords it is not: it rests on `Modes.error_bound`, which is checked by measurement. The speeds
     `lowest_reached` and `highest_reached` belong to systems in the box, whose data are `lowest_at` and `highest_at`.
 
     Examples
@@ -46,7 +48,7 @@ class WorstCase(Result, row="mode", title="{_words}", notes=("{_remarks}",)):
     __slots__ = ()
     number: Field[Whole] = Field("Mode numbers, shape (k,).", heading="mode", column="mode")
     lowest_angular_speed: Field[Floats] = Field(
-        "Proved lower bound of each speed over the box, rad/s, shape (k,).", heading="speed at least", unit="rad/s"
+        "Lower bound of each speed over the box, rad/s, shape (k,).", heading="speed at least", unit="rad/s"
     )
     lowest_reached: Field[Floats] = Field(
         "Lowest speed of a system in the box that was found, rad/s, shape (k,).", heading="lowest reached", unit="rad/s"
@@ -55,29 +57,29 @@ class WorstCase(Result, row="mode", title="{_words}", notes=("{_remarks}",)):
         "Highest speed of a system in the box that was found, rad/s, shape (k,).", heading="highest reached", unit="rad/s"
     )
     highest_angular_speed: Field[Floats] = Field(
-        "Proved upper bound of each speed over the box, rad/s, shape (k,).", heading="speed at most", unit="rad/s"
+        "Upper bound of each speed over the box, rad/s, shape (k,).", heading="speed at most", unit="rad/s"
     )
     lowest_period: Field[Floats] = Field(
-        "Proved lower bound of each period, s, shape (k,).",
+        "Lower bound of each period, s, shape (k,).",
         lambda w: _outward(in_unit(w.highest_angular_speed, "s"), -1),
         heading="period at least",
         unit="s",
     )
     highest_period: Field[Floats] = Field(
-        "Proved upper bound of each period, s, shape (k,).",
+        "Upper bound of each period, s, shape (k,).",
         lambda w: _outward(in_unit(w.lowest_angular_speed, "s"), 1),
         heading="period at most",
         unit="s",
     )
     lowest_conical_height: Field[Floats] = Field(
-        "Proved lower bound of each conical height, m, shape (k,).", axes=(), unit="m"
+        "Lower bound of each conical height, m, shape (k,).", axes=(), unit="m"
     )
     highest_conical_height: Field[Floats] = Field(
-        "Proved upper bound of each conical height, m, shape (k,).", axes=(), unit="m"
+        "Upper bound of each conical height, m, shape (k,).", axes=(), unit="m"
     )
     gap: Field[Floats] = Field(
-        "Part of the proved range of each speed that was not reached, shape (k,): 0 if the extremes are exact, 1 if nothing "
-        "is proved because the chain may tip over.",
+        "Part of the range between the bounds of each speed that was not reached, shape (k,): 0 if the extremes are exact, 1 "
+        "if nothing is proved because the chain may tip over.",
         lambda w: _gap(w),
         heading="gap",
         digits=2,
@@ -106,8 +108,8 @@ class WorstCase(Result, row="mode", title="{_words}", notes=("{_remarks}",)):
         which = "any speed" if slight.all() else "the speed of " + ", ".join(without)
         return "\n".join([
             *([f"no effect: the data do not change {which} within their tolerances"] if without else []),
-            "no system in the box is outside of the bounds; reached: by a system in the box",
-            "gap: part of the proved range that was not reached",
+            "at least, at most: bounds for every system in the box; reached: by a system in the box",
+            "gap: part of the range between the bounds that was not reached",
         ])  # fmt: skip
 
 
@@ -337,20 +339,18 @@ def _hung_cord(cord: Any, modes: Modes, ends: dict[str, tuple[float, float]]) ->
     data = cord._state()
     first, size = int(modes.number[0]), len(modes)
     state = [data._replace(weight=1.0, tip=float(ratio)) for ratio in parts]
-    heights = np.array([
-        _core.cord_modes(type(cord)._from_state(one)._compiled, first, size, None, None, None, None).conical_height
-        for one in state
-    ])  # fmt: skip
-    error = 1 + 1e-13
+    modes_of = [_core.cord_modes(type(cord)._from_state(one)._compiled, first, size, None, None, None, None) for one in state]
+    heights = np.array([each.conical_height for each in modes_of])
+    errors = 1 + np.maximum(np.array([each.error_bound for each in modes_of]), _LEAST_ERROR)
     found = []
     for k in range(size):
-        column, pair = heights[:, k], list[Extreme]()
+        column, error, pair = heights[:, k], errors[:, k], list[Extreme]()
         for side, length in ((-1, short), (1, long)):
             best = int((side * column).argmax())
-            bound = column[best] * error**side
+            bound = side * (side * column * error**side).max()
             if len(parts) > 1 and first + k > 1:  # the first height rises with the ratio
-                ratio = parts[1:] / parts[:-1] * error
-                bounds = column[1:] * ratio if side > 0 else column[:-1] / ratio
+                ratio = parts[1:] / parts[:-1]
+                bounds = column[1:] * error[1:] * ratio if side > 0 else column[:-1] / (error[:-1] * ratio)
                 bound = bounds.max() if side > 0 else bounds.min()
             q = float(parts[best])  # a mass and a tip with this ratio
             weight = min(max(tip[0] / q, light), heavy) if q else light
@@ -374,6 +374,7 @@ def _held_cord(held: Any, modes: Modes, ends: dict[str, tuple[float, float]]) ->
         heights = found.conical_height * (length / data.length)
         factors = np.array([length, mass, math.nan, tension])
         side = 1 if k else -1
-        pairs.append([Extreme(float(x) * (1 + side * 1e-13), float(x), factors, 1) for x in heights])
+        bounds = heights * (1 + np.maximum(found.error_bound, _LEAST_ERROR)) ** side
+        pairs.append([Extreme(float(bound), float(x), factors, 1) for bound, x in zip(bounds, heights, strict=True)])
     return list(zip(*pairs, strict=True))
 

@@ -426,9 +426,13 @@ def several(key: str, value: Any) -> str:
     one = ("ask.shapes.angular_speed", "ask.drag.angular_speed", "ask.equilibria.angular_speed")
     if key not in one or not isinstance(parts, list) or len(parts) < 2:
         return ""
-    if isinstance(value, str) and not all(re.fullmatch(r"[+-]?[\d.]+\s*[A-Za-z/]*", part) for part in parts):
-        return ""
-    return f'; for several speeds write a study with [vary."{key}"] and values = {written(parts)}: revchain sweep STUDY'
+    if isinstance(value, str):
+        number = r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?"
+        is_decimal = re.fullmatch(rf"\s*[+-]?\d+,\d+([eE][+-]?\d+)?\s*[A-Za-z/]*\s*", value)  # the mark, as the message says
+        if is_decimal or not all(re.fullmatch(rf"{number}\s*[A-Za-z/]*", part) for part in parts):
+            return ""
+    values = f"[{', '.join(map(written, parts))}]"
+    return f'; for several speeds write a study with [vary."{key}"] and values = {values}: revchain sweep STUDY'
 
 
 def _is_number(annotation: Any) -> bool:

@@ -605,9 +605,9 @@ class Chain(System):
 
 
 def are_rods(length: ArrayLike, centroid: ArrayLike, radius_of_gyration: ArrayLike) -> Any:
-    """Return, for each link, whether it is a uniform rod."""
+    """Return, for each link, whether it is a uniform rod; rounded numbers count as equal."""
     half, spread = np.multiply(length, 0.5), np.divide(length, math.sqrt(12))
-    return np.equal(centroid, half) & np.isclose(radius_of_gyration, spread, rtol=1e-12, atol=0.0)
+    return np.isclose(centroid, half, rtol=1e-12, atol=0.0) & np.isclose(radius_of_gyration, spread, rtol=1e-12, atol=0.0)
 
 
 def like(caller: str, chain: Chain, mass: Any, weight: Any, of: str = "") -> Any:

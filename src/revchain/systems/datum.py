@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from .. import _core
-from .chain import Chain, checked, compiled
+from .chain import Chain, are_rods, checked, compiled
 from .cord import Cord
 from .held import Held
 from .numbers import Floats, shown
@@ -208,9 +208,7 @@ def _of_chain(caller: str, chain: Chain, path: str, link: int | None, gravity: f
 def _is_of_length_alone(chain: Chain, link: int) -> bool:
     """Return whether the length of a link sets its centroid and inertia: a point mass at its lower pin, or a rod."""
     long, centroid, radius = (float(column[link]) for column in (chain.length, chain.centroid, chain.radius_of_gyration))
-    near = 1e-12 * long
-    is_rod = abs(centroid - long / 2) <= near and abs(radius - long / math.sqrt(12)) <= near
-    return is_rod or (radius == 0 and abs(centroid - long) <= near)
+    return bool(are_rods(long, centroid, radius)) or (radius == 0 and abs(centroid - long) <= 1e-12 * long)
 
 
 def _scaled(caller: str, chain: Chain, heavier: float, longer: float) -> Chain:

@@ -180,13 +180,17 @@ def reals(caller: str, **given: object) -> dict[str, float]:
 def positive(caller: str, name: str, value: ArrayLike) -> Floats:
     """`value` as a float64 array of positive finite numbers."""
     array = floats(caller, name, value)
-    refuse_where(~((array > 0) & (array < math.inf)), array, f"{caller}: {name} must be positive and finite")
+    wrong = ~((array > 0) & (array < math.inf))
+    if wrong.any() and units.has_units(value):
+        raise ValueError(f"{caller}: {name} must be positive and finite, got {shown(value)}")
+    refuse_where(wrong, array, f"{caller}: {name} must be positive and finite")
     return array
 
 
 def one_positive(caller: str, name: str, value: object) -> float:
     """`value` as a positive finite float; anything but one real number is refused with a ValueError."""
-    return float(positive(caller, name, real(caller, name, value)))
+    real(caller, name, value)
+    return float(positive(caller, name, value))  # type: ignore[arg-type]
 
 
 def exactly_one(caller: str, **given: float | None) -> tuple[str, float]:

@@ -588,6 +588,11 @@ class Rig(System):
         return self._force(gravity) * self._momentum(gravity)
 
     @property
+    def _wheels(self) -> NDArray[np.bool_]:
+        inertia = _NOTHING if self.flywheels is None else self.flywheels._inertia
+        return np.asarray(np.broadcast_to(inertia > 0, self.size) | (self._momentum(1.0) != 0))
+
+    @property
     def has_momentum(self) -> bool:  # type: ignore[override]
         """Whether a wheel spins relative to its link, or has momentum, at rest: the two directions then differ."""
         return self.flywheels is not None and bool(self._momentum(STANDARD_GRAVITY).any())

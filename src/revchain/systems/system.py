@@ -62,6 +62,11 @@ class System(Unchangeable):
         return np.zeros(self._base.size)
 
     @property
+    def _wheels(self) -> NDArray[np.bool_]:
+        """Whether each link has a flywheel, which may be at rest."""
+        return np.zeros(self._base.size, bool)
+
+    @property
     def size(self) -> int:
         """Number of links; 0 for a cord."""
         raise NotImplementedError
