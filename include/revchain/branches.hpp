@@ -63,7 +63,7 @@ enum class BranchBirth {
 
 /// A branch of steady shapes, point by point along its arc, in the units of the chain. Its arc has
 /// no unit: ds^2 = (mean of dtau^2 over the links) + (d log(conical height))^2, where
-/// tan(inclination) = sinh(tau).
+/// tan(inclination) = sinh(tau). Steps along tangents are added: 0.1 % less than the integral.
 struct Branch {
     Index mode = 0;  ///< at which it leaves the vertical; 1 also from rest; 0 if isolated
     BranchBirth birth = BranchBirth::vertical;
@@ -280,8 +280,9 @@ struct ShapesOnBranch {
 /// shape is on this branch. Cost: O(N), for 100,000 rods at twice the first critical speed 0.7 s.
 /// Throws InvalidArgument for a mode number outside 1 ... `chain.mode_count()`, unless exactly one
 /// number is given, and if it is out of its range (`tip_radius` below the length, `top_tension`
-/// above the weight), or is not reached. Also throws for a `min_conical_height` not below the
-/// height of the mode, and for a speed not above the mode's critical speed.
+/// above the weight), or is not reached. Also throws for a `min_conical_height` not positive or not
+/// below the height of the mode, a speed not above the mode's critical speed, gravity not positive,
+/// and weights more than 1e123 apart.
 REVCHAIN_DECLARE
 [[nodiscard]] SteadyShape steady_shape(const Chain<double>& chain, const OnBranchOptions& options);
 

@@ -24,8 +24,9 @@
 /// unit; only ratios of weights matter to speeds. Numbers are stored as given. Greenhill (1908) §8.
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// Powers of two that bring the total weight and the largest length to the order of 1. Scaling by
-/// them prevents overflow in any units. It is exact, but for weights too far apart for one unit.
+/// The exponents e of the total weight and of the largest length or centroid: division by 2^e
+/// brings each to the order of 1, which prevents overflow in any units. It is exact, but for
+/// weights too far apart for one unit.
 struct ChainUnits {
     int weight_exponent = 0;
     int length_exponent = 0;

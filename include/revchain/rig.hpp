@@ -22,10 +22,11 @@
 ///     found.shapes[0].offset[0];                                     // 6.46323 m: the seat's radius
 ///     const revchain::Rig sprung(chain, {.support = revchain::horizontal_spring(500.0, 10.0)});
 ///
-/// Forces are in the unit of the weights, a stiffness in that unit over the unit of length. Numbers
-/// are stored exactly as given. Stiffness and momentum are double words: with masses for weights,
-/// newtons are divided by gravity without rounding to double, `Wide<double>(500.0) /
-/// Wide<double>(9.81)`. `modes` of a rig is in rig_modes.hpp. Greenhill (1908) §2, §7 and §8.
+/// Forces are in the unit of the weights, the stiffness of a support in that unit over the unit of
+/// length, of a pin in that unit times it. Numbers are stored exactly as given. Stiffness and
+/// momentum are double words: with masses for weights, newtons are divided by gravity without
+/// rounding to double, `Wide<double>(500.0) / Wide<double>(9.81)`. `modes` of a rig is in
+/// rig_modes.hpp. Greenhill (1908) §2, §7 and §8.
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// The support of the uppermost pin. The default is a firm point on the axis.

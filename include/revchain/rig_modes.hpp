@@ -85,7 +85,7 @@ struct SlackLink {
 enum class RigMethod {
     modes,   ///< the rig is a plain chain: `modes` of that chain
     counts,  ///< numbered by counts
-    discs,   ///< all at once, each proved in a disc of its own
+    discs,   ///< all at once, proved if discs about them do not meet
 };
 [[nodiscard]] inline std::string_view to_string(RigMethod method) noexcept {
     constexpr std::string_view names[]{"modes", "counts", "discs"};
@@ -118,9 +118,10 @@ struct RigModes {
 /// spring. Otherwise all heights or speeds are found at once (Ehrlich, Aberth) and proved in
 /// disjoint discs.
 /// Accuracy, measured (tests/cpp/rig_modes.cpp): heights without momentum, speeds with it, within
-/// 0.501 ulp of the exact ones of the stored numbers. Their bounds are at most 1 ulp by counts;
-/// shapes are as for chains. Cost: 50 ns per link and mode with shapes if all links hang in
-/// tension, pins have no springs and no trolley rolls freely; O(N k) memory. Discs: O(N^2).
+/// 0.501 ulp of the exact ones of the stored numbers. Their bounds by counts are at most 1 ulp,
+/// wider with springs at pins of very light links; shapes are as for chains. Cost: 50 ns per link
+/// and mode with shapes if all links hang in tension, pins have no springs and no trolley rolls
+/// freely; O(N k) memory. Discs: O(N^2).
 /// Throws InvalidArgument for dashpots or linear drag (use `damped_modes`), `first` or `count`
 /// below 1, gravity not positive, a window unless 0 <= low < high, numbers together with a window,
 /// two windows, a negative `rtol` or `threads`, and numbers too far apart. Also throws for a rig

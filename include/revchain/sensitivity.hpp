@@ -20,8 +20,8 @@
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// The data of a link. In a derivative all other data of all links are constant. `length` moves the
-/// lower pin: centroid and radius of gyration are constant. `length_in_proportion` changes both in
-/// proportion, as the length of a plummet's thread or of a rod does.
+/// lower pin alone. `length_in_proportion` changes centroid and radius of gyration in proportion,
+/// too, as the length of a plummet's thread or of a rod does.
 enum class Datum { weight, length, centroid, radius_of_gyration, length_in_proportion };
 
 inline constexpr std::array<std::string_view, 5> datum_names{
@@ -92,11 +92,12 @@ struct Uncertainty {
 };
 
 /// Standard deviations of conical heights from those of the data: variance = sum of (d lambda/dx)^2
-/// var x, or d^T C d for a datum with a covariance C. The error is of second order: the relative
-/// error of the variance is some (sigma_x d^2 lambda/dx^2 / (d lambda/dx))^2, which is large if a
-/// derivative is nearly 0. Cost O(k N), with a covariance O(k N^2). Throws InvalidArgument for
-/// lists that are neither of one number nor of N, deviations negative or not finite, a covariance
-/// not N by N, not symmetric or with a negative variance, and for another number of heights.
+/// var x, or d^T C d for a datum with a covariance C. The error is of second order: with the first
+/// three derivatives l', l'', l''' of a height, the relative error of the variance is some sigma^2
+/// (l''^2/l'^2 + |l'''/l'|), which is large if a derivative is nearly 0. Cost O(k N), with a
+/// covariance O(k N^2). Throws InvalidArgument for lists that are neither of one number nor of N,
+/// deviations negative or not finite, a covariance not N by N, not symmetric or with a negative
+/// variance, and for another number of heights.
 template <Real T>
 [[nodiscard]] Uncertainty<T> uncertainty(const Sensitivity<T>& sensitivity,
                                          const std::type_identity_t<Vector<T>>& conical_height,
@@ -123,7 +124,8 @@ struct RigSensitivity {
 ///     dn/dx = - y^T (dK + n dG - n^2 dM/g) y / y^T (G - 2 n M/g) y.
 /// With s the slope of a link, dG/dH is s^2 for a link that hangs, -s^2 for one that stands. dn/dx
 /// is formed in double-double. Offsets with errors e of the largest give x dn/dx an error of about
-///     4 e (|K| + |n G| + n^2 |M|/g) / |y^T (G - 2 n M/g) y|.
+///     4 e (|K| + |n G| + n^2 |M|/g) / |y^T (G - 2 n M/g) y|
+/// at most (spectral norms) if all links hang, and a larger one where two speeds nearly meet.
 /// Cost O(N). Throws InvalidArgument for a speed that is 0 or not finite, gravity not positive,
 /// offsets not N + 1, not finite, or that move no weight and tilt no flywheel, weights more than
 /// 1e123 apart, springs at pins, dashpots and linear drag.

@@ -82,7 +82,7 @@ template <Real T>
 struct TransverseModes {
     Vector<T> conical_height;  ///< (n) of the conical pendulum with the same period
     Vector<T> error_bound;     ///< (n) relative
-    Table<T> shape;            ///< (n, n + 2) offsets; largest 1, that of the first weight >= 0
+    Table<T> shape;            ///< (n, n + 2) offsets, the largest 1 or -1, the first weight's >= 0
 
     /// Seconds, 2 pi sqrt(conical_height / g).
     [[nodiscard]] Vector<T> period(const T& gravity = T(conical_pendulum::standard_gravity)) const {

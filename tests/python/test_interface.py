@@ -231,7 +231,7 @@ def test_forces_come_out_in_newtons_of_masses():
 @pytest.mark.parametrize("name", ["effective_energy", "moment_of_inertia"])
 def test_a_number_that_shapes_of_cords_do_not_have(name):
     shape = rc.steady_shapes(rc.Cord(1.0), angular_speed=9.0)[0]
-    with pytest.raises(AttributeError, match=f"revchain.SteadyShape.{name}: a Cord does not have it"):
+    with pytest.raises(AttributeError, match=f"revchain.SteadyShape.{name}: this Cord does not have it"):
         getattr(shape, name)
 
 

@@ -473,6 +473,19 @@ def test_failure_in_the_middle_leaves_the_old_file(path, monkeypatch):
     assert path.read_bytes() == before and [*path.parent.iterdir()] == [path]
 
 
+def test_a_link_to_a_file_of_another_ending_gets_what_was_asked(tmp_path):
+    """The path's ending says what is written, and the target of the link is what changes."""
+    (target := tmp_path / "blob").write_text("old")
+    (link := tmp_path / "picture.png").symlink_to(target)
+    with written_aside(link) as [aside]:
+        assert aside.suffix == ".png"
+        aside.write_text("new")
+    assert target.read_text() == "new"
+    assert link.is_symlink()
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["blob", "picture.png"]
+
+
+
 def test_several_files_appear_together(tmp_path):
     one, two = tmp_path / "one", tmp_path / "two"
     one.write_text("old")

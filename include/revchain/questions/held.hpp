@@ -147,7 +147,7 @@ auto held_shape(const HeldBy& by, const HeldOnBranchOptions& options, const AtHe
     const Wide<double> height = height_asked(by, options);
     if (auto shape = at_height(span, height)) return *shape;
     throw_invalid(place,
-                  "the branch does not reach this conical height; branches says how far it goes",
+                  "the branch has no shape at this conical height; steady_shapes lists all there",
                   static_cast<double>(height));
 }
 

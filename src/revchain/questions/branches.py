@@ -196,7 +196,7 @@ def branches(
     A listed shape that matches no branch lies on an isolated branch, which is then followed from that shape to its end.
     ``consistent`` is true if the shapes of each list match the branches one to one, and no branch stops early, as at a slack
     link (`loose` is no early end). Each list must be proved to have all shapes in a plane with the axis. Lists of cords are
-    scanned, not proved; of their branches only those of modes must not stop early.
+    scanned, not proved, and made only where no theorem counts the shapes.
 
     An isolated branch that is a closed loop can begin and end between two of the 16 speeds, so that no list contains it.
     Interval arithmetic therefore splits the plane of conical height and tangent of the lowest link until each part has

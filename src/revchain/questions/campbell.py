@@ -47,7 +47,7 @@ def campbell(
         Multiples of the speed; those listed twice are taken once.
     half_waves : int
         Number of half waves of the shape. Of several shapes with this number it is the one whose free end is farthest
-        out. With the support off the axis and one half wave, that is the shape from rest if all links hang in tension.
+        out. With the support off the axis and one half wave, that is the shape from rest, as far as its branch goes.
     frame : {"free", "driven"}
         Frame, as in `SteadyShape.stability`.
     gravity : float, optional

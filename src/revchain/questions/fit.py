@@ -103,7 +103,7 @@ def fit(
     If the model is correct, at most one fit in a hundred does so by chance (Bonferroni's inequality, for all measurements
     together). To first order; Cook and Weisberg, *Residuals and Influence in Regression* (1982), chapter 2.
 
-    Speeds depend on ratios of masses: those of a chain on a firm support cannot determine all its masses. Such
+    The speeds of a chain without springs and wheels depend on ratios of its masses: they cannot determine all. Such
     combinations have singular values of the derivatives below 1e-8 of the largest; the result names them.
 
     Examples

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Errors for questions that a system cannot answer: the reason, and the question to ask instead."""
+"""Errors for arguments that are no system, and for systems without an answer, with the question to ask instead."""
 
 from __future__ import annotations
 

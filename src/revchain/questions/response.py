@@ -73,7 +73,7 @@ def response(
     -------
     Response
         The offsets and counts of modes. At a resonance without damping, as far as double-double can tell,
-        offsets (but for that of a firm support) are NaN and `resonant` is true. The `error_bound` is proved. With springs
+        offsets (but for one that is given) are NaN and `resonant` is true. The `error_bound` is proved. With springs
         at pins, dashpots, linear drag, a trolley, an acceleration or a force there is an `error_estimate` instead.
 
     Raises

@@ -58,9 +58,10 @@ def steady_shapes(
         Acceleration of gravity, m/s^2; standard gravity if left out. Not used for a weightless held system.
     budget : int, optional
         Largest number of links to visit while the range of inclinations of the lowest link is split. Chains and rigs:
-        3,000,000 if left out, at about half a microsecond each; with 0 the list is empty and not complete. Held
-        chains: 300,000 if left out, at about a microsecond each; with 0 completeness is not proved. Cords for which no
-        theorem counts the shapes: number of offsets of the free end to examine, 200 if left out.
+        3,000,000 if left out, at 0.1 to 1 microsecond each besides the refinement of shapes; with 0 the list is empty
+        and not complete. Held chains: 300,000 if left out, at about a microsecond each; with 0 completeness is not
+        proved. Cords for which no theorem counts the shapes: number of offsets of the free end to examine, 200 if left
+        out.
     hanging_only : bool, optional
         Chains and rigs: whether to leave out shapes in which a link is inverted, that is, at more than a right angle to
         the downward vertical. For a rig: whether to leave out shapes with other links inverted than those of the rig.
@@ -102,18 +103,19 @@ def steady_shapes(
         ``s**p`` without a tip, or with a tip if p is below 0. It also holds if at most one critical height lies above
         the given one. Otherwise a shape that exists only between two scanned offsets is missed.
 
-        Held systems: shapes of 1 to `max_half_waves` half waves, ordered by half waves. Among shapes with equally many, the
-        one that is reached from the nearly straight chain without gravity, as the ends approach and gravity then grows,
-        comes first. Each link points to where the load on it turns it back. Of two mirror images the one whose lowest link
-        leads outwards is given; ends off the axis have no mirror images. Half waves are counted about the line between the
-        ends (with springs: between their rest positions). ``missing`` lists the half waves with which none was found. Held chains:
-        ``complete`` is true if it is proved that there are no other shapes with these numbers of half waves in the plane of
-        the axis and the ends; else ``undecided`` gives the inclinations of the lowest link at which others in that plane
-        may start (none if `prove` is false). The proof usually succeeds for one half wave of up to 9 links with ``l <= a``
-        and mass at every pin; with more links or half waves it often leaves a part undecided. Only shapes in that plane are
-        searched for. If both ends are off the axis, others are common, and ``complete`` is false. Otherwise a shape out of
-        the plane has a link that could lean to any side under no load. Held cords: ``complete`` is true for a span without
-        gravity, which has one shape for each number of half waves.
+        Held systems: shapes of 1 to `max_half_waves` half waves, ordered by half waves. Among shapes with equally many,
+        the one that is reached from the nearly straight chain without gravity, as the ends approach and gravity then
+        grows, if any, comes first. Each link points to where the load on it turns it back. Of two mirror images the one
+        whose lowest link leads outwards is given; ends off the axis have no mirror images. Half waves are counted about
+        the line between the ends (with springs: between their rest positions). ``missing`` lists the half waves with
+        which none was found. Held chains: ``complete`` is true if it is proved that there are no other shapes with
+        these numbers of half waves in the plane of the axis and the ends; else ``undecided`` gives the inclinations of
+        the lowest link at which others in that plane may start (none if `prove` is false). The proof usually succeeds
+        for one half wave of up to 9 links with ``l <= a`` and mass at every pin; with more links or half waves it often
+        leaves a part undecided. Only shapes in that plane are searched for. If both ends are off the axis, others are
+        common, and ``complete`` is false. Otherwise a shape out of the plane has a link that could lean to any side
+        under no load. Held cords: ``complete`` is true for a span without gravity, which has one shape for each number
+        of half waves.
 
     Raises
     ------

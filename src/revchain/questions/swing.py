@@ -46,7 +46,7 @@ def swing(
     arc_length: ArrayLike | None = None,
     gravity: float = STANDARD_GRAVITY,
 ) -> Swing:
-    """Return the small oscillations of a chain, rig or cord from any initial state, as a sum of modes.
+    """Return the small oscillations of a chain, rig or cord from an initial state: the sum of its modes.
 
     The support may be moved: a crane that brakes, a ship that rolls. Dashpots and linear drag damp the motion.
 

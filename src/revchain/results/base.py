@@ -33,8 +33,8 @@ class Field(Generic[Value]):
     them; a file holds those that were computed. A field without a function is a part unless it says ``part=False``.
 
     A field with a heading is a column of the printed table, in the order of the fields, and one with `axes` a column of
-    dictionaries, data frames and files. A field with `fact` describes the whole result there. A column that a result does
-    not have, or that is None, is left out.
+    dictionaries, files and, unless it holds arrays, data frames. A field with `fact` describes the whole result in
+    these. A column that a result does not have, or that is None, is left out.
 
     Attributes
     ----------
@@ -142,7 +142,7 @@ class Result(Unchangeable):
     Arguments of the class statement:
 
     - `row`: name of what a row of the table is, such as ``"mode"``;
-    - `title`: line above the table, with names of fields in braces;
+    - `title`: line above the table, with names of fields or properties in braces;
     - `notes`: lines below it, likewise;
     - `spread`: whether a long table prints evenly spaced rows instead of the first ones;
     - `good`: name of the field that says whether everything was found and proved, by True or by a word.
@@ -495,7 +495,7 @@ class _Words:
 def not_there(result: Any, name: str) -> str:
     """The sentence about a field that a result of this kind of system does not have."""
     system = type(result.system).__name__ if "system" in result.__dict__ else "result of this kind"
-    return f"revchain.{type(result).__name__}.{name}: a {system} does not have it"
+    return f"revchain.{type(result).__name__}.{name}: this {system} does not have it"
 
 
 _HOLD = (np.ndarray, list, tuple, dict)  # types that may hold writable arrays

@@ -298,9 +298,9 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         -------
         tuple of SteadyShape
             The shapes in the order of the arc; none if the speed is outside the range of the branch. Within 1e-9 of the
-            speed of a fold its two neighbouring shapes may be missing. At the speed of the fold, to rounding, its shape is
-            returned if no other has this speed. At the speed at which the branch leaves the vertical the tuple is empty or,
-            by rounding, has a nearly straight shape.
+            speed of a fold its two neighbouring shapes may be missing. At the speed of the fold, to rounding, its shape
+            is returned if no other has this speed. The straight shape is not among them; where the branch leaves the
+            vertical a nearly straight one may be, by rounding.
 
         Raises
         ------
@@ -371,8 +371,9 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
 
         Notes
         -----
-        Cost: 8 verdicts for each point of the branch, and some 20 for each edge. A verdict takes 0.05 ms for five links,
-        0.4 ms for twenty, 1.5 ms for forty. With ``samples=1`` it is one for each point; edges take as many.
+        Cost: 8 verdicts for each point of the branch, and some 20 for each edge, where they can take 20
+        times as long. A verdict takes 0.05 ms for five links, 0.4 ms for twenty, 1.5 ms for forty. With ``samples=1``
+        it is one for each point; edges take as many.
 
         Examples
         --------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`ForceDiagram`: the forces on the links of a steady shape as a closed polygon."""
+"""`ForceDiagram`: the force diagram and the funicular polygon of a steady shape."""
 
 from __future__ import annotations
 

@@ -140,5 +140,5 @@ class DragShape(Result, row="link", title="{summary}", notes=("{_remarks}",), go
             f"{self.error_estimate:.1e} rad"
         ]
         if self.folds:
-            lines.append(f"the way to this shape passes {self.folds} folds: a chain that follows it jumps")
+            lines.append(f"the way to this shape passes {self.folds} fold{'s' * (self.folds > 1)}: a chain that follows it jumps")
         return "\n".join(lines)

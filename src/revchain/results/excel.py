@@ -218,7 +218,7 @@ def name_of(result: Result) -> str:
 
 
 def save_workbook(caller: str, path: str | os.PathLike[str], results: Mapping[str, Result], title: str = "") -> None:
-    """Write results of one system to a workbook; the file is complete or absent."""
+    """Write results of one system to a workbook; if that fails, an existing file stays."""
     if Path(file_path(caller, "path", path)).suffix.lower() != ".xlsx":
         raise ValueError(f"{caller}: path must end in .xlsx, got {os.fspath(path)}; for other files: save, to_dataframe")
     require("openpyxl", "excel", PURPOSE)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Output files that are either complete or absent."""
+"""Output files that are either complete or as they were before."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from typing import Any
 
 
 class OutputError(OSError, ValueError):
-    """The error of a file that cannot be written or read; an OSError that is also a ValueError."""
+    """The error of a file that cannot be written, or of a model that cannot be read; an OSError and a ValueError."""
 
 
 @contextmanager
@@ -63,7 +63,7 @@ def hdf5_file(path: str | os.PathLike[str], mode: str = "w+") -> Iterator[FileIO
 
 @contextmanager
 def written_aside(*paths: str | os.PathLike[str]) -> Iterator[list[Path]]:
-    """Yield an empty temporary file beside each path, with the same ending; rename all of them at the end.
+    """Yield an empty temporary file beside each path or target of a link, with the path's ending; rename all at the end.
 
     A file that the caller removes from the list is not renamed, so that its path stays as it was. If anything fails before
     the renaming, all are removed and existing files stay. A path that cannot be written raises an error at once. Devices and
@@ -76,7 +76,7 @@ def written_aside(*paths: str | os.PathLike[str]) -> Iterator[list[Path]]:
             if final.is_dir():
                 raise IsADirectoryError(21, "Is a directory", os.fspath(path))
             direct = final.exists() and not final.is_file()
-            aside = final if direct else final.with_name(f".{final.stem[:100]}-{secrets.token_hex(6)}{final.suffix}")
+            aside = final if direct else final.with_name(f".{final.stem[:100]}-{secrets.token_hex(6)}{Path(path).suffix}")
             if not direct:
                 try:
                     aside.open("xb").close()

@@ -521,10 +521,7 @@ class SteadyShape(
 
     def _chain(self, method: str) -> _core.Chain:
         if not isinstance(self.system, Chain):
-            raise ValueError(
-                f"revchain.SteadyShape.{method}: is for shapes of a Chain; for a Rig ask modes, or the shape of its "
-                f"chain, got {shown(self.system)}"
-            )
+            raise ValueError(f"revchain.SteadyShape.{method}: is for shapes of a Chain alone, got {shown(self.system)}")
         return self.system._compiled
 
     def _from_parts(self) -> Any:

@@ -156,7 +156,7 @@ SteadyShape first_on_branch(const System& system, const Options& options) {
             "what is given is not met on the branch " +
                 (found.from_rest ? std::string("from rest")
                                  : "of mode " + std::to_string(options.mode)) +
-                "; looked down to the conical height, got " + detail::in_digits(found.searched_to) +
+                "; looked down to the conical height " + detail::in_digits(found.searched_to) +
                 (found.end == BranchEnd::loose
                      ? "; there the spring at the support no longer holds the whole"
                  : found.end != BranchEnd::height ? "; it could not be followed farther"
