@@ -86,7 +86,7 @@ function buildSliders() {
         shown: speedOfMode,
         main: true,
         id: 'speed',
-        least: 0,
+        least: LEAST.speed,
         scale: linear(0, () => top),
         set: (x) => {
             state.speed = x;
@@ -100,12 +100,12 @@ function buildSliders() {
     const most = 2 * totalLength(state) + 2 * state.radius;
     const weak = {to: (x) => 40 * x, from: (t) => Math.max(0.1, t / 40)};
     const sliders = [
-        slider(state, 'gravity', {label: 'Gravity', unit: 'm/s²', id: 'gravity', least: 1e-6, scale: weak}),
+        slider(state, 'gravity', {label: 'Gravity', unit: 'm/s²', id: 'gravity', least: LEAST.gravity, scale: weak}),
         slider(state, 'radius', {
             label: 'Arm that carries the support round',
             unit: 'm',
             id: 'arm',
-            least: 0,
+            least: LEAST.radius,
             scale: linear(0, () => most),
         }),
     ];
@@ -121,8 +121,9 @@ function buildSliders() {
     const held = [];
     if (state.stiffness !== null) {
         const [stiffness, carriage] = [logarithmic(state.stiffness), logarithmic(state.carriage || 1)];
-        held.push(slider(state, 'stiffness', {label: 'Stiffness', unit: 'N/m', least: 1e-12, scale: stiffness}));
-        held.push(slider(state, 'carriage', {label: 'Mass that moves with it', unit: 'kg', least: 0, scale: carriage}));
+        held.push(slider(state, 'stiffness', {label: 'Stiffness', unit: 'N/m', least: LEAST.stiffness, scale: stiffness}));
+        const mass = {label: 'Mass that moves with it', unit: 'kg', least: LEAST.carriage, scale: carriage};
+        held.push(slider(state, 'carriage', mass));
     }
     const boxes = (list) => list.map((each) => each.box);
     const check = element('label', {className: 'check'}, spring, 'Support on a sideways spring');
@@ -151,13 +152,13 @@ function numbersOf(part, kind) {
     };
     const count = whole(1, () => Math.max(60, part[PART.count]));
     const numbers = [
-        [PART.count, 'Links', '', count, {least: 1, set: setCount}],
-        [PART.mass, 'Mass of each', 'kg', logarithmic(part[PART.mass]), {least: 0}],
-        [PART.length, 'Length of each', 'm', logarithmic(length), {least: 1e-12, set: setScaled}],
+        [PART.count, 'Links', '', count, {set: setCount}],
+        [PART.mass, 'Mass of each', 'kg', logarithmic(part[PART.mass])],
+        [PART.length, 'Length of each', 'm', logarithmic(length), {set: setScaled}],
     ];
     if (kind === 'body') {
         numbers.push([PART.centroid, 'Centre of gravity below the upper pin', 'm', linear(-length, () => 2 * length)]);
-        numbers.push([PART.gyration, 'Radius of gyration', 'm', linear(0, () => 2 * length), {least: 0}]);
+        numbers.push([PART.gyration, 'Radius of gyration', 'm', linear(0, () => 2 * length)]);
     }
     if (momentum)
         numbers.push([PART.momentum, 'Angular momentum of each wheel', 'kg m²/s', linear(-momentum, () => momentum)]);
@@ -188,7 +189,7 @@ function partBox(part, index) {
     };
     const boxes = numbersOf(part, kind.value).map(([key, label, unit, scale, more]) => {
         const id = `part${index}-${Object.keys(PART)[key]}`;
-        return slider(part, key, {label, unit, scale, id, ...more}).box;
+        return slider(part, key, {label, unit, scale, id, least: LEAST_OF_PART[key], ...more}).box;
     });
     if (part[PART.stands]) boxes.push(element('p', {textContent: 'These links stand on their upper pins.'}));
     const alone = state.parts.length === 1;

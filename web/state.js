@@ -5,6 +5,9 @@
 const STANDARD_GRAVITY = 9.80665;
 const MOST_LINKS = 200;
 const PART = {count: 0, mass: 1, length: 2, centroid: 3, gyration: 4, stands: 5, momentum: 6, axial: 7};
+/** The least numbers that fields and links accept, and those of a part by index. */
+const LEAST = {speed: 0, gravity: 1e-6, radius: 0, stiffness: 1e-12, carriage: 0};
+const LEAST_OF_PART = {[PART.count]: 1, [PART.mass]: 0, [PART.length]: 1e-12, [PART.gyration]: 0, [PART.axial]: 0};
 const KINDS = {point: [1, 0], rod: [0.5, Math.sqrt(1 / 12)]};
 
 const presets = JSON.parse(document.getElementById('presets').textContent);
@@ -33,7 +36,7 @@ function setLength(part, length) {
 }
 
 function setKind(part, kind) {
-    if (kind in KINDS) [part[3], part[4]] = KINDS[kind].map((ratio) => ratio * part[PART.length]);
+    if (Object.hasOwn(KINDS, kind)) [part[3], part[4]] = KINDS[kind].map((ratio) => ratio * part[PART.length]);
 }
 
 const linkCount = (state) => state.parts.reduce((sum, part) => sum + part[PART.count], 0);
@@ -86,32 +89,40 @@ function fromLink(text) {
             throw new Error(`The link gives ${what} as "${given}". Choose an example, or copy the link again.`);
         return value;
     };
-    const optional = (key, what, none) => (key in fields ? number(fields[key], what) : none);
+    const formNamed = (name) => (name in {} ? '' : name); // not a property of every object
+    const optional = (key, what, none, least) => (Object.hasOwn(fields, key) ? number(fields[key], what, least) : none);
     const part = (row) => {
         const given = row.split('_'),
             kind = given[3],
-            known = kind in KINDS;
+            known = Object.hasOwn(KINDS, kind);
         const values = known ? [...given.slice(0, 3), 0, 0, ...given.slice(4)] : given;
-        const numbers = values.map((value, i) => number(value, Object.keys(PART)[i] ?? 'a further number'));
+        const names = ['the number of links', ...Object.keys(PART).slice(1)];
+        const numbers = values.map((value, i) => number(value, names[i] ?? 'a further number', LEAST_OF_PART[i]));
         const whole = [...numbers, ...Array(8).fill(0)].slice(0, 8);
-        if (!(whole[0] >= 1 && Number.isInteger(whole[0]))) number('', 'the number of links', 1);
+        if (!Number.isInteger(whole[0])) number(`${given[0]} (not whole)`, 'the number of links');
         if (known) setKind(whole, kind);
         return whole;
     };
-    const shown = {speed: optional('n', 'the speed', null), select: fields.s ?? null, unit: fields.u ?? 'rpm'};
-    if (!(shown.unit in UNITS)) throw new Error(`The link gives the unit of speed as "${shown.unit}". It knows rpm, rad/s and Hz.`);
+    const shown = {
+        speed: optional('n', 'the speed', null, LEAST.speed),
+        select: /^[sm][1-9]\d*$/.test(fields.s) ? fields.s : null,
+        unit: fields.u ?? 'rpm',
+    };
+    if (!Object.hasOwn(UNITS, shown.unit))
+        throw new Error(`The link gives the unit of speed as "${shown.unit}". It knows rpm, rad/s and Hz.`);
     if (!fields.p) return {...presetState(fields.x), ...shown};
     const parts = fields.p.split('~').map(part);
     const state = {
         name: presets.some((each) => each.name === fields.x) ? fields.x : null,
         parts,
-        forms: parts.map((_, i) => (fields.f ?? '').split('~')[i] ?? ''),
-        gravity: optional('g', 'gravity', STANDARD_GRAVITY),
-        radius: optional('r', 'the arm', 0),
-        stiffness: optional('k', 'the stiffness', null),
-        carriage: optional('c', 'the carriage', 0),
+        forms: parts.map((_, i) => formNamed((fields.f ?? '').split('~')[i] ?? '')),
+        gravity: optional('g', 'gravity', STANDARD_GRAVITY, LEAST.gravity),
+        radius: optional('r', 'the arm', 0, LEAST.radius),
+        stiffness: optional('k', 'the stiffness', null, LEAST.stiffness),
+        carriage: optional('c', 'the carriage', 0, LEAST.carriage),
         ...shown,
     };
+    if (state.stiffness === null) state.carriage = 0; // nothing moves with a firm support
     if (linkCount(state) > MOST_LINKS)
         throw new Error(
             `The link has ${linkCount(state)} links. The page shows at most ${MOST_LINKS}; use the Python package.`,

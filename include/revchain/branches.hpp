@@ -63,7 +63,8 @@ enum class BranchBirth {
 
 /// A branch of steady shapes, point by point along its arc, in the units of the chain. Its arc has
 /// no unit: ds^2 = (mean of dtau^2 over the links) + (d log(conical height))^2, where
-/// tan(inclination) = sinh(tau). Steps along tangents are added: 0.1 % less than the integral.
+/// tan(inclination) = sinh(tau). Steps along tangents are added: it falls a little short of the
+/// integral.
 struct Branch {
     Index mode = 0;  ///< at which it leaves the vertical; 1 also from rest; 0 if isolated
     BranchBirth birth = BranchBirth::vertical;

@@ -156,8 +156,9 @@ def test_a_link_that_is_wrong_is_refused_in_words(open_page):
     page = open_page("p=3_x_1_point")
     assert settled(page)["modes"]["modes"]
     page = open_page("p=3_1_-2_rod")
-    found = settled(page)
-    assert "must be finite and not negative, got -" in found["problem"]
+    assert 'The link gives length as "-2"' in settled(page)["problem"]
+    page = open_page("p=3_0_1_rod")  # which the library refuses
+    assert "the lowest link must have weight" in settled(page)["problem"]
     page.wait_for_selector("#problem:not([hidden])")
     page.select_option("#preset", "two_weights")  # and the page goes on
     assert settled(page)["problem"] == ""

@@ -42,13 +42,14 @@ test('a link gives back every digit of what is set', () => {
             if (next() < 0.6) setKind(part, next() < 0.5 ? 'rod' : 'point');
             return part;
         });
+        const stiffness = next() < 0.5 ? null : 1000 * next();
         const state = {
             name: next() < 0.5 ? 'nut' : null,
             parts,
             gravity: next() < 0.5 ? 9.80665 : 20 * next(),
             radius: next() < 0.5 ? 0 : next(),
-            stiffness: next() < 0.5 ? null : 1000 * next(),
-            carriage: next() < 0.5 ? 0 : next(),
+            stiffness,
+            carriage: stiffness === null || next() < 0.5 ? 0 : next(),
             forms: parts.map(() => ['', 'bell', 'seat'][Math.floor(3 * next())]),
             unit: ['rpm', 'rad/s', 'Hz'][Math.floor(3 * next())],
             speed: next() < 0.5 ? null : 30 * next(),
@@ -81,8 +82,29 @@ test('wrong links say which number is wrong', () => {
         ['p=0_1_1_rod', /number of links/],
         ['p=1_1_1_rod&g=NaN', /gravity as "NaN"/],
         ['p=150_1_1_rod~51_1_1_rod', /201 links.*at most 200/],
+        ['x=nut&u=toString', /unit of speed as "toString"/],
+        ['p=1_1_1_constructor', /centroid as "constructor"/],
+        ['p=1_-1_1_point', /mass as "-1"/],
+        ['p=1_0_0_rod', /length as "0"/],
+        ['p=1_1_1_0.5_-0.1', /gyration as "-0.1"/],
+        ['p=1_1_1_rod_0_0.5_-0.01', /axial as "-0.01"/],
+        ['p=1_1_1_point&g=-9.81', /gravity as "-9.81"/],
+        ['p=1_1_1_point&g=0', /gravity as "0"/],
+        ['p=1_1_1_point&r=-1', /arm as "-1"/],
+        ['p=1_1_1_point&k=-5', /stiffness as "-5"/],
+        ['p=1_1_1_point&k=0', /stiffness as "0"/],
+        ['p=1_1_1_point&k=5&c=-1', /carriage as "-1"/],
+        ['x=nut&n=-2', /speed as "-2"/],
     ])
         assert.throws(() => fromLink(link), words, link);
+});
+
+test('names that every object has are neither forms nor kinds, and there is no mode 0', () => {
+    assert.deepEqual(plain(fromLink('p=1_1_1_point~1_1_1_rod&f=constructor~bell').forms), ['', 'bell']);
+    for (const select of ['m0', 's0', 'm', 'x1']) assert.equal(fromLink(`x=nut&s=${select}`).select, null);
+    const part = [1, 1, 1, 0.3, 0.2, 0, 0, 0];
+    setKind(part, 'constructor');
+    assert.deepEqual(part, [1, 1, 1, 0.3, 0.2, 0, 0, 0]);
 });
 
 test('a part keeps its kind when its length changes', () => {
@@ -106,6 +128,13 @@ test('the same chain as a program and as a scene', () => {
     const state = {...presetState('nut'), speed: 2.5, radius: 0.5, stiffness: 40, carriage: 3};
     assert.match(toPython(state), /mass=\[2\],\n    length=\[3\],\n\)\nsystem = rc.Rig\(chain, support=rc.Support\(stiffness=40, mass=3, radius=0.5\)\)/);
     assert.match(toScene(state), /title = "A nut"\n\n\[\[links\]\]\nmass = 2\nlength = 3\n\n\[support\]\nradius = 0.5\nstiffness = 40\nmass = 3\n/);
+});
+
+test('nothing moves with a firm support', () => {
+    const state = fromLink('p=1_1_1_point&r=3&c=30');
+    assert.equal(state.carriage, 0);
+    assert.match(toPython(state), /rc.Support\(radius=3\)/);
+    assert.match(toScene(state), /\[support\]\nradius = 3\n\n/);
 });
 
 test('counts, lengths and heights', () => {

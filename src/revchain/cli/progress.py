@@ -34,7 +34,7 @@ def bar_of(what: str, console: Console, quiet: bool, *columns: ProgressColumn) -
 
 
 def counted(stack: ExitStack, what: str, quiet: bool) -> Callable[[int, int], None]:
-    """Return a function of the numbers done and in all. On a terminal it shows a progress bar after a while."""
+    """Return a function that takes two counts, the parts done and all parts, and shows the progress."""
     bar = bar_of(what, Console(stderr=True), quiet, MofNCompleteColumn(), TimeRemainingColumn())
     task = bar.add_task(what, total=None)
     began = time.monotonic()

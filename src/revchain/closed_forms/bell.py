@@ -73,7 +73,7 @@ class BellAndClapper(
         heading="mode",
     )
     angular_speed: Field[Floats] = Field(
-        "Speed of each mode, rad/s, shape (2,); NaN if it does not swing but falls.",
+        "Speed of each mode, rad/s, shape (2,); NaN if it is no oscillation of finite period.",
         lambda b: _speeds(np.asarray(b.conical_height), b.gravity),
         heading="speed",
         unit="rad/s",

@@ -241,7 +241,7 @@ class SkippingRope(Solved, row="rope", title="SkippingRope: {self._waves}"):
         "Tension at a node divided by that in the middle of a half wave.", heading=""
     )
     height_times_tension: Field[float] = Field(
-        "Conical height times tension in the middle; it determines the shape.", heading=""
+        "Conical height times tension in the middle; with span and number of half waves it determines the shape.", heading=""
     )
     moment_of_inertia: Field[float] = Field(
         "Moment of inertia about the axis, divided by the mass per length.", heading=""
@@ -348,7 +348,9 @@ class TortuousRope(
         "Angle round the axis in a half wave, rad; pi for the plane rope.", heading="its angle", unit="rad"
     )
     conical_height: Field[float] = Field("Conical height of the speed.", heading="")
-    height_times_tension: Field[float] = Field("Conical height times tension; it determines the shape.", heading="")
+    height_times_tension: Field[float] = Field(
+        "Conical height times tension; with both radii it determines the shape.", heading=""
+    )
     modulus: Field[float] = Field("Modulus of the elliptic functions.", heading="")
     complementary_modulus: Field[float] = Field("Complementary modulus of the elliptic functions.", heading="")
     _solver = _core.TortuousRope

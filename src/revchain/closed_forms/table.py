@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The table of closed forms: each row is a typed function without a body, below `closed_form`.
+"""The table of closed forms. Its rows are in other modules: typed functions without a body, decorated by `closed_form`.
 
-A row has the compiled function of the formula, the accuracy, the source, the arguments with their types, and a
-docstring: a summary; paragraphs; lines ``name: text`` for `returns`, `raises`, `notes` and for arguments that are
-more special than the vocabulary below says (lines that continue a text are indented); examples. `closed_form` checks
-the arguments, calls the formula and writes the docstring with its numpydoc sections. `described` writes the docstring
-only, of anything that has a body of its own.
+The decorator gets the compiled function of the formula, the accuracy and the source. The short docstring has a summary;
+paragraphs; lines ``name: text`` for `returns`, `raises`, `notes` and for arguments that are more special than the
+vocabulary below says (lines that continue a text are indented); examples. `closed_form` checks the arguments, calls the
+formula and writes the docstring with its numpydoc sections. `described` writes the docstring only, of anything that has
+a body of its own.
 """
 
 from __future__ import annotations
@@ -122,7 +122,10 @@ FORMS: dict[str, Form] = {}
 
 
 class Form:
-    """A row of the table: the formula, its arguments, its accuracy, source and cost."""
+    """A row of the table: the typed function, the formula, the arguments with defaults, and how the answer is made.
+
+    Accuracy, source and cost are in the docstring of the function.
+    """
 
     def __init__(self, function: Formula, formula: Formula, made: Formula | None) -> None:
         self.name = f"{function.__module__.rpartition('.')[2]}.{function.__name__}"

@@ -3,8 +3,9 @@
 
 The support turns about the vertical; each link has two hinges at its upper pin, one that inclines it in the turning plane
 and one that moves it out of it. A link without a wheel has no moment of inertia about its own axis, so that only its direction
-counts. Without springs and dashpots at pins, a support on the axis neither drives the chain nor is driven by it. In steady
-motion all joints but that of the support are at rest. Springs and dashpots at a pin act on both of its hinges.
+counts. Without springs and dashpots at pins and without a dashpot at the support, a support on the axis neither drives the
+chain nor is driven by it. In steady motion all joints but that of the support are at rest. Springs and dashpots at a pin
+act on both of its hinges.
 """
 
 from __future__ import annotations

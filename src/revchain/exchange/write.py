@@ -70,15 +70,15 @@ def to_mjcf(
     -----
     A ``turntable`` turns about the vertical and carries the upper pin. Each link has two hinges there: ``inclination``, in
     the turning plane, and ``sideways``, out of it. In steady motion only the turntable and the wheels turn. A turntable
-    on the axis exerts no torque on a chain without springs at pins. One with an arm, or of a system with dashpots, has a
-    moment of inertia large enough to keep its speed to 12 digits, or to stand still. A link with a flywheel has a wheel
-    with half of its mass, which carries the same angular momentum.
+    on the axis exerts no torque on a chain without springs and dashpots at pins and without a dashpot at the support. One
+    with an arm, or of a system with dashpots, has a moment of inertia large enough to keep its speed to 12 digits, or to
+    stand still. A link with a flywheel has a wheel with half of its mass, which carries the same angular momentum.
 
     A support on a spring, or a trolley, is a ``carriage`` on two slides, ``carriage_x`` and ``carriage_y``, with the
     support's stiffness and damping. Springs and dashpots at a pin are the stiffness and damping of both its hinges. The
     springs are relaxed where the chain hangs straight, or with its inverted links upright. Small motions about this
-    position are those of `modes`. In a disturbed steady shape dashpots at hinges take more energy than those of
-    `SteadyShape.stability`, where links may also turn about their own axes.
+    position are those of `modes`. Where several links leave the plane of a shape, hinge dashpots take more energy than
+    those of `SteadyShape.stability`: there links also turn about their axes.
 
     MuJoCo accepts no moment of inertia below 1e-15 kg m^2. This amount is added to each link about all axes, as for a
     small ball. Steady motion is unchanged; disturbed motion changes by the ratio of this amount to the moment of

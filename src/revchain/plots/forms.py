@@ -85,7 +85,7 @@ def extent_of(form: str) -> tuple[float, float, float]:
 def draw_form(ax: Axes, form: str, at: float, most: float, levels: Any, unit: float, backward: bool) -> None:
     """Draw a body, seen from the side. A metre is as wide as it is high, or `most` units of the axis if that is less.
 
-    `levels` returns the levels of distances along the link from where the pieces start.
+    `levels` converts distances along the link, counted from the start of the pieces, to levels of the picture.
     """
     from matplotlib.patches import Ellipse, Polygon
     from matplotlib.transforms import Affine2DBase

@@ -39,7 +39,7 @@ def branch(
     max_points: int = 10_000,
     max_step: float = 0.1,
 ) -> Branch:
-    """Return the branch of steady shapes that leaves the vertical at one critical speed, followed through every fold.
+    """Return the branch of steady shapes of one mode, followed through every fold.
 
     Parameters
     ----------
@@ -187,7 +187,8 @@ def branches(
         If not exactly one of `max_angular_speed` and `min_conical_height` is given, or a number is out of its range; if
         a link of a rig has no effective tension at one of the speeds; if a `Held` system is under a tension or has no
         gravity; if a rig has springs at pins, a dashpot at its support, linear drag or a free trolley; with
-        ``hanging_only=False`` for a cord, a held system, or more than 10 links; with `stability` for a cord.
+        ``hanging_only=False`` for a cord, a held system, or more than 10 links; with `stability` for a cord, or where
+        `SteadyShape.stability` raises one.
     TypeError
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`, or `hanging_only` or `stability` is not a bool.
 

@@ -637,7 +637,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         -----
         A whirling cord of weight `W` and length `L` whose free end has the offset `b` has the kinetic energy
         ``W * L * (b * slope(L))**2 / 2`` to second order in `b`, in joules for `W` in newtons. Its potential energy is
-        equal. This holds for a cord without a tip whose density is a power.
+        equal. This holds for a cord without tip and point masses whose density is a power.
 
         Examples
         --------

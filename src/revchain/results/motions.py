@@ -375,7 +375,11 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
         "estimate, shape (n,): the largest effect of modes k + 1 to 2 k, and of higher ones by extrapolation.",
         fact=True,
     )
-    summary: Field[str] = Field("The number of modes, and those with most of the energy, in words.", lambda s: s._words())
+    summary: Field[str] = Field(
+        "The number of modes and those with most of the energy, in words; where there is an `error_estimate`, the number "
+        "and the sway.",
+        lambda s: s._words(),
+    )
 
     @property
     def _turns(self) -> bool:

@@ -217,8 +217,8 @@ class Uncertainty(Result, row="mode", title="Standard deviations"):
     )
     largest: Field[tuple[str, ...]] = Field(
         "For each mode the path of the datum that contributes most, such as ``'links[load].mass'``; empty if the mode is "
-        "exact. `tune` and `fit` accept these paths, but for ``'exponent'``; there the length of a point mass or rod moves "
-        "its centre of gravity.",
+        "exact. `tune` and `fit` accept these paths, but for ``'exponent'`` and for fluid or added mass that the rig "
+        "lacks; there the length of a point mass or rod moves its centre of gravity.",
     )
     _largest_part: Field[list[str]] = Field(
         "`largest`, or that there is nothing.",

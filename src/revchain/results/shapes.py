@@ -236,8 +236,8 @@ class SteadyShape(
         fact=True,
     )
     proved: Field[bool] = Field(
-        "Whether `error_bound` is proved; else it is an estimate: for cords, at a fold of a branch, with "
-        "``prove=False``, and where the proof fails.",
+        "Whether `error_bound` is proved; else it is an estimate: for cords, at a fold of a branch, for held chains "
+        "with ``prove=False``, and where the proof fails.",
         fact=True,
     )
     residual: Field[float] = Field(
@@ -254,7 +254,11 @@ class SteadyShape(
         fact=True,
     )
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2; 0 without gravity.", fact=True)
-    direction: Field[int] = Field("Direction of rotation, 1 or -1; only a rig with flywheels depends on it.", fact=True)
+    direction: Field[int] = Field(
+        "Direction of rotation, 1 or -1. Velocity and angular momentum have its sign; only the shapes of rigs with "
+        "flywheels depend on it.",
+        fact=True,
+    )
     moment_of_inertia: Field[float] = Field(
         "Moment of inertia about the axis, with the masses on springs at its ends, kg m^2; for a system given by weight, in "
         "weight times length squared. Still fluid adds its added mass, turning fluid subtracts the mass displaced. Not for "

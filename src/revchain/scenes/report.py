@@ -89,7 +89,7 @@ TERMS = {
 }
 
 def further_sheets(found: Any) -> list[Sheet]:
-    """Return the tables beside that of an answer: its proof, other solutions, the governor, the pins at one speed."""
+    """Return the tables beside that of an answer: proof, other solutions, governor, stability windows, pins at one speed."""
     sheets: list[Sheet] = []
     for name in ("certificate", "other", "governor"):
         part = getattr(found, name, None)

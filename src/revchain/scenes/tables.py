@@ -47,7 +47,7 @@ class Table(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True,
 
 
 class Flywheel(Table, frozen=True):
-    """A wheel that spins about the axis of its link. The data of the link include its mass and its inertia."""
+    """A wheel that spins about its link's axis. The link's data include the wheel's mass and inertia across the axis."""
 
     radius_of_gyration: Annotated[NotNegative, says("Radius of gyration about the axis of the wheel (m).")]
     spin: Annotated[AnySign, says("Spin (rad/s); positive in the direction of a positive whirl speed.")]

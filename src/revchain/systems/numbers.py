@@ -163,7 +163,7 @@ def refuse_where(wrong: NDArray[np.bool_], array: Floats, message: str) -> None:
 
 
 def real(caller: str, name: str, value: object) -> float:
-    """`value` as a float; anything but one real number is refused with a ValueError."""
+    """`value` as a float, in SI if it has a unit; a ValueError refuses anything but one real number."""
     if isinstance(value, float):  # numpy's float64 is one, too
         return float(value)
     array = floats(caller, name, value)  # type: ignore[arg-type]
@@ -188,7 +188,7 @@ def positive(caller: str, name: str, value: ArrayLike) -> Floats:
 
 
 def one_positive(caller: str, name: str, value: object) -> float:
-    """`value` as a positive finite float; anything but one real number is refused with a ValueError."""
+    """`value` as a positive finite float, in SI if it has a unit; a ValueError refuses anything but one real number."""
     real(caller, name, value)
     return float(positive(caller, name, value))  # type: ignore[arg-type]
 

@@ -212,8 +212,8 @@ class Pin(_Fitting):
         unit of its weights times m.
     damping : array_like
         Torque over the rate of that angle, N m s/rad (for a chain given by weight in the unit of its weights times m
-        s), of links that do not turn about their own axes. About steady shapes (`SteadyShape.stability`) links also
-        turn about their own axes, so that the least energy is lost.
+        s), of links that do not turn about their own axes. About steady shapes (`SteadyShape.stability`) links
+        without a moment of inertia about their axes also turn about these, so that the least energy is lost.
 
     Raises
     ------
