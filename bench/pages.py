@@ -431,7 +431,7 @@ HOLDS = (
           lambda r: all(row["complete"] in ("yes", "") for row in r("steady-shapes"))),
     Holds("docs/benchmarks.md", "proved bound of at most 4.4e-16",
           lambda r: max(float(row["worst_bound"] or 0) for row in r("steady-shapes")) <= 4.45e-16),
-    Holds("docs/accuracy.md", "every reported bound is at most 2 ulp",
+    Holds("docs/accuracy.md", "Every reported bound is at most 2 ulp",
           lambda r: max(float(row["worst_bound_ulp"]) for row in r("accuracy")) <= 2),
     Holds("docs/accuracy.md", "which lose everything below κ' = 1e-8", elliptic_lost),
     Holds("docs/models.md", "The choice takes less than a microsecond in C++, and about two for a hundred unequal links",

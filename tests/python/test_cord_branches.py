@@ -246,7 +246,7 @@ def test_an_error_of_a_function_comes_through(ask):
 
 def test_stability_of_branches_is_refused_at_once():
     for cord, most in ((rc.Cord(1.0), 0.1), (rc.Held(rc.Cord(1.0), span=0.5), 10.0)):
-        with pytest.raises(ValueError, match=r"^revchain.branches: stability is not offered for the branches of a cord"):
+        with pytest.raises(ValueError, match=r"^revchain.branches: stability is for links, as each verdict of a cord takes long"):
             rc.branches(cord, max_angular_speed=most, stability=True)
     rig = rc.Rig(rc.Chain(mass=[1.0, 1.0], length=1.0), support=rc.Support(stiffness=100.0), pins=rc.Pin(damping=1.0))
     with pytest.raises(ValueError, match=r"^revchain.branches: with dashpots a support"):

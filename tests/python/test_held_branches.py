@@ -67,7 +67,7 @@ def test_branches_pass_through_the_shapes_of_every_speed():
             assert same.proved
             assert np.abs(shape.offset).max() == branch.largest_offset[k]
             assert shape.tension[-1] == pytest.approx(branch.top_tension[k], rel=1e-15)
-    with pytest.raises(ValueError, match="does not reach this conical height"):
+    with pytest.raises(ValueError, match="has no shape at this conical height"):
         rc.steady_shape(MAST, mode=1, angular_speed=0.9 * branches[0].angular_speed[-1])
 
 

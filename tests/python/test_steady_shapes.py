@@ -149,7 +149,7 @@ def test_extreme_weights(weight):
     assert all(error_of(chain, height, s) <= s.error_bound for s in shapes)
 
 
-@pytest.mark.parametrize("budget", [0, -1, 1, 10, np.int64(100), 2**31])
+@pytest.mark.parametrize("budget", [0, 1, 10, np.int64(100), 2**31])
 def test_small_budget_is_owned_up_to(budget):
     shapes, full = (rc.steady_shapes(plummets(3), conical_height=0.03, **given) for given in ({"budget": budget}, {}))
     assert shapes.complete == (budget == 2**31)

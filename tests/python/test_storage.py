@@ -477,7 +477,7 @@ def test_a_link_to_a_file_of_another_ending_gets_what_was_asked(tmp_path):
     """The path's ending says what is written, and the target of the link is what changes."""
     (target := tmp_path / "blob").write_text("old")
     (link := tmp_path / "picture.png").symlink_to(target)
-    with written_aside(link) as [aside]:
+    with _files.written_aside(link) as [aside]:
         assert aside.suffix == ".png"
         aside.write_text("new")
     assert target.read_text() == "new"

@@ -100,7 +100,7 @@ def run(
             except Stop as stop:
                 answers.setdefault(question, str(stop).removeprefix(f"{scene}: ").removeprefix(f"{question}: "))
                 failed.append(stop)
-        written = write_wholes(checked, answers, wholes, asides, units, gravity)
+        written = write_wholes(checked, answers, wholes, asides, units, gravity) if wholes else []
     if written and not quiet:
         print(f"wrote {', '.join(map(str, written))}")
     if failed:

@@ -88,7 +88,8 @@ class Straight:
     def beside(self) -> float:
         """Return how far bodies and flywheels reach sideways, in units of the axis."""
         reach = [extent_of(form)[0] * unit * metre for form, unit, metre in self._forms.values()]
-        return max([*reach, WHEEL * bool(self.system._wheels.any())])
+        has_wheels = self.system._support is not None and bool(self.system._wheels.any())  # only rigs have a support
+        return max([*reach, WHEEL * has_wheels])
 
     def room(self, narrow: float = 1.0) -> tuple[float, float]:
         """Return the room left of the axis for parts and right of it for names, in data units, in columns `narrow` times
@@ -307,9 +308,8 @@ def beside_at_rest(system: System | None, ax: Axes | None, width: float, height:
     A very flat drawing has levels of its own.
     """
     bent = getattr(system, "span", None) is not None  # it cannot hang straight
-    if ax is not None or system is None or bent or not Straight(system).few:
+    if ax is not None or system is None or bent or not (straight := Straight(system)).few:
         return axes_or_new(ax, width, height)
-    straight = Straight(system)
     own = 1.1 + 0.27 * sum(straight.room())
     part = 1.1 * (across or 0.0) / float(np.ptp(straight._ends()))
     share = across is not None and part < 2.0  # a very flat drawing has levels of its own

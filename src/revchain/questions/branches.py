@@ -252,7 +252,7 @@ def branches(
         raise ValueError(f"{caller}: budget must not be negative, got {shown(budget)}")
     postures, judged = [system], boolean(caller, "stability", stability)
     if judged and system._is_cord:
-        raise ValueError(f"{caller}: stability is not offered for the branches of a cord; leave it out and use shape.stability()")
+        raise ValueError(f"{caller}: stability is for links, as each verdict of a cord takes long; ask shapes: branch.shape(-1).stability()")
     if not boolean(caller, "hanging_only", hanging_only):
         postures = _postures(caller, system)
     diagrams = []

@@ -371,9 +371,9 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
 
         Notes
         -----
-        Cost: 8 verdicts for each point of the branch, and some 20 for each edge, where they can take 20
-        times as long. A verdict takes 0.05 ms for five links, 0.4 ms for twenty, 1.5 ms for forty. With ``samples=1``
-        it is one for each point; edges take as many.
+        Cost: 8 verdicts for each point of the branch, and some 20 for each edge, where they can take longer. A
+        verdict takes 0.05 ms for five links, 0.4 ms for twenty, 1.5 ms for forty. With ``samples=1`` it is one for each
+        point; edges take as many.
 
         Examples
         --------
