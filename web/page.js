@@ -21,7 +21,8 @@ let state,
     modes = null,
     shapes = null,
     diagram = null,
-    problem = '';
+    problem = '',
+    refused = ''; // why a link was not opened: said until something changes
 let chosen = null; // the mode or the shape that turns: a figure with offset and height
 let modesStale = true; // asked for again with the next request
 let modesShown = false;
@@ -37,6 +38,7 @@ let angle = 0,
 
 /** Something in the state has changed. */
 function changed({speed = false} = {}) {
+    refused = '';
     links = partOfLinks(state);
     if (!speed) {
         if (state.name) {
@@ -360,8 +362,8 @@ function showStory() {
 
 function show() {
     dirty = false;
-    $('problem').hidden = !problem;
-    $('problem').textContent = problem;
+    $('problem').hidden = !(problem || refused);
+    $('problem').textContent = problem || refused;
     speedSlider.show();
     showShapes();
     if (!modesShown) showModes();
@@ -429,7 +431,7 @@ function open(given) {
     state = given;
     modes = shapes = diagram = chosen = null;
     modesStale = true;
-    problem = '';
+    problem = refused = '';
     links = partOfLinks(state);
     $('preset').value = state.name ?? '';
     settle = true;
@@ -446,7 +448,7 @@ function openLink() {
         open(fromLink(location.hash.slice(1)) ?? presetState('swing_carousel'));
     } catch (wrong) {
         open(presetState('swing_carousel'));
-        problem = wrong.message;
+        refused = wrong.message;
     }
 }
 
@@ -568,7 +570,7 @@ window.copied = (what) => ({python: toPython, scene: toScene})[what](state);
 /** For tests: what is known once nothing is being computed. */
 window.settled = async () => {
     while (!now || now.busy || later.busy) await new Promise((done) => setTimeout(done, 5));
-    return {state, modes, shapes, diagram, problem, top, angle, fast: engine.fast};
+    return {state, modes, shapes, diagram, problem: problem || refused, top, angle, fast: engine.fast};
 };
 
 start();

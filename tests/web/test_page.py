@@ -154,9 +154,13 @@ def test_a_link_holds_the_whole_state(open_page):
 
 def test_a_link_that_is_wrong_is_refused_in_words(open_page):
     page = open_page("p=3_x_1_point")
-    assert settled(page)["modes"]["modes"]
+    assert settled(page)["modes"]["modes"]  # of an example; what is wrong stays in sight
+    page.wait_for_selector("#problem:not([hidden])")
+    assert 'The link gives mass as "x"' in page.text_content("#problem")
     page = open_page("p=3_1_-2_rod")
     assert 'The link gives length as "-2"' in settled(page)["problem"]
+    page.select_option("#preset", "two_weights")
+    assert settled(page)["problem"] == ""
     page = open_page("p=3_0_1_rod")  # which the library refuses
     assert "the lowest link must have weight" in settled(page)["problem"]
     page.wait_for_selector("#problem:not([hidden])")
