@@ -112,13 +112,13 @@ struct HeldCordShapesOptions {
 /// this tension at the upper end. Other shapes of a chain come last among those with as many half
 /// waves.
 ///
-/// `missing` lists the numbers of half waves with which none was found. `complete` is true if it is proved
-/// that there is no other such shape with 1 to `max_half_waves` half waves in the plane of the axis
-/// and the ends; others are not searched. For a cord this is possible only at a span without
-/// gravity. Otherwise, for a chain and with `prove`, `undecided` has the ranges of the lowest
-/// link's inclination (rad) in which other shapes may exist in that plane. If both radii differ
-/// from 0, the arms can twist the chain out of it, and `complete` is false; otherwise a shape out
-/// of it has a link that could lean to any side under no load.
+/// `missing` lists the numbers of half waves with which none was found. `complete` is true if it is
+/// proved that there is no other such shape with 1 to `max_half_waves` half waves in the plane of
+/// the axis and the ends; others are not searched. For a cord this is possible only at a span
+/// without gravity. Otherwise, for a chain and with `prove`, `undecided` has the ranges of the
+/// lowest link's inclination (rad) in which other shapes may exist in that plane. If both radii
+/// differ from 0, the arms can twist the chain out of it, and `complete` is false; otherwise a
+/// shape out of it has a link that could lean to any side under no load.
 ///
 /// Forces in `HeldShape` and `HeldCordShape` are multiplied by the conical height. Divide by
 /// `conical_height` for the unit of the weights; without gravity multiply by the square of the

@@ -120,14 +120,15 @@ struct SteadyShapes {
 /// any posture, at 1/1000 of the length, the 18 shapes of three take 2 ms, the 64 of four 12 ms.
 /// Threads share the refinement of shapes, about half of the cost, with `hanging_only` if each link
 /// has one inclination for its load; otherwise they share nothing. Results are bitwise the same for
-/// any number of threads. Above the first critical height there is no shape in any posture. Proof:
-/// let s be the sines of the inclinations d, G their mass matrix, kappa = W h + a S, D = lambda
-/// diag(kappa |sec d|) > G, and E = diag(+-1) the postures. Then E D s = G s gives, with w = D^1/2
-/// s, |E w| = |D^-1/2 G D^-1/2 w| < |w|: only w = 0 is possible. An angular speed n gives the
-/// height g/n^2, formed in double-double. Throws InvalidArgument unless exactly one of height and
-/// speed is given, positive and finite, for gravity not positive and weights more than 1e123 apart.
-/// Also throws for links that stand or may hang at several inclinations, unless `thorough` is
-/// given.
+/// any number of threads.
+/// Above the first critical height there is no shape in any posture. Proof: let s be the sines of
+/// the inclinations d, G their mass matrix, kappa = W h + a S, D = lambda diag(kappa |sec d|) > G,
+/// and E = diag(+-1) the postures. Then E D s = G s gives, with w = D^1/2 s, |E w| = |D^-1/2 G
+/// D^-1/2 w| < |w|: only w = 0 is possible. An angular speed n gives the height g/n^2, formed in
+/// double-double.
+/// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, for
+/// gravity not positive and weights more than 1e123 apart. Also throws for links that stand or may
+/// hang at several inclinations, unless `thorough` is given.
 REVCHAIN_DECLARE
 [[nodiscard]] SteadyShapes steady_shapes(const Chain<double>& chain,
                                          const SteadyShapesOptions& options);

@@ -281,8 +281,8 @@ template <Real T>
     const T whole = links.lower_weight + links.upper_weight;
     const T w1 = links.lower_weight / whole, w2 = links.upper_weight / whole;
     for (PairShape<T>& shape : shapes) {
-        // offsets of both centroids over the height
-        // from the joint or the centre of oscillation, whichever is nearer
+        // offsets of both centroids over the height; of the lower one from the joint or from the
+        // centre of oscillation, whichever is nearer
         const T below = links.lower.centroid, above = links.lower.square_over_centroid();
         const T first = shape.offset[below < above ? 1 : 0] / height +
                         (below < above ? below : -above) / height * sin(shape.inclination[0]);

@@ -38,15 +38,16 @@ struct BellNumbers {
         clapper = chain.link(0), bell = chain.link(1), exponent = chain.units().length_exponent;
         require_positive(place, "the bell's weight", bell.weight);
         const auto scaled = [&](const T& x) { return S(x * ldexp(T(1), -exponent)); };
-        // The square of a joint and of its inverse must be numbers.
-        constexpr int most = std::numeric_limits<T>::max_exponent / 3;
-        using std::abs;
-        if (const T far = abs(joint.value_or(T(1)) * ldexp(T(1), joint ? -exponent : 0));
-            !(far == T(0) || (far >= ldexp(T(1), -most) && far <= ldexp(T(1), most))))
-            throw_invalid(place,
-                          "joint must be 0, or not more than 2^" + std::to_string(most) +
-                              " times longer or shorter than the bodies",
-                          *joint);
+        if (joint && *joint != T(0)) {  // its square and that of its inverse must be numbers
+            using std::abs;
+            constexpr int most = std::numeric_limits<T>::max_exponent / 3;
+            const T far = abs(*joint * ldexp(T(1), -exponent));
+            if (!(far >= ldexp(T(1), -most) && far <= ldexp(T(1), most)))
+                throw_invalid(place,
+                              "joint must be 0, or not more than 2^" + std::to_string(most) +
+                                  " times longer or shorter than the bodies",
+                              *joint);
+        }
         const auto square = [&](const Link<T>& link) {
             return link.gyration_ratio * (scaled(link.length) * scaled(link.length));
         };

@@ -36,6 +36,10 @@ struct Jet {
         return {x.value * y.value, x.slope * y.value + x.value * y.slope,
                 x.bend * y.value + X(2.0) * x.slope * y.slope + x.value * y.bend};
     }
+    /// Returns the ratio of the slopes or, where both vanish, its limit: that of the bends.
+    friend X slope_ratio(const Jet& x, const Jet& y) {
+        return x.slope == 0 && y.slope == 0 ? x.bend / y.bend : x.slope / y.slope;
+    }
     /// Returns the square root.
     friend Jet root(const Jet& x) {
         using std::sqrt;
@@ -134,11 +138,7 @@ inline GovernorPoint SleeveGovernor::at(double inclination, std::optional<double
     p.inclination = inclination, p.ball_radius = m.radius.value, p.lift = m.sleeve.value;
     p.height = d.arm * c + (d.pivot_offset == 0 ? 0 : d.pivot_offset * c / s);
     const auto square_at = [&](double friction) {
-        const double slope = m.potential.slope + friction * m.sleeve.slope;
-        // Both sides vanish in the axis: there the ratio is that of the next derivatives.
-        if (m.inertia.slope == 0 && slope == 0)
-            return 2 * (m.potential.bend + friction * m.sleeve.bend) / m.inertia.bend;
-        return 2 * slope / m.inertia.slope;
+        return 2 * slope_ratio(m.potential + Jet<double>(friction) * m.sleeve, m.inertia);
     };
     const auto root = [](double x) {
         return x >= 0 ? std::sqrt(x) : std::numeric_limits<double>::quiet_NaN();
@@ -257,9 +257,8 @@ inline GovernorEffort SleeveGovernor::effort(double inclination, double change) 
         Motion::of<double>(d, std::sin(inclination), std::cos(inclination), Motion::start(d));
     GovernorEffort result;
     // The force that holds the sleeve at the new speed; it falls to 0 while the sleeve is lifted.
-    const bool still = m.inertia.slope == 0 && m.sleeve.slope == 0;  // in the axis: the limit
-    const double ratio = still ? m.inertia.bend / m.sleeve.bend : m.inertia.slope / m.sleeve.slope;
-    result.effort = now.speed * now.speed * (change + change * change / 2) * ratio / 2;
+    result.effort = now.speed * now.speed * (change + change * change / 2) *
+                    slope_ratio(m.inertia, m.sleeve) / 2;
     result.lift = result.power = std::numeric_limits<double>::quiet_NaN();
     for (const GovernorPoint& next : equilibria((1 + change) * now.speed))
         if (next.stable && next.inclination > inclination) {

@@ -73,7 +73,7 @@ Chain<T> Chain<T>::repeated(std::string_view place, Index count, T length, T wei
 
 template <Real T>
 template <class V>
-Column<V> Chain<T>::column(const std::vector<Link<T>>& links, bool equal, V Link<T>::* member) {
+Column<V> Chain<T>::column(const std::vector<Link<T>>& links, bool equal, V Link<T>::*member) {
     if (equal) return links.front().*member;
     std::vector<V> values(links.size());
     std::transform(links.begin(), links.end(), values.begin(),

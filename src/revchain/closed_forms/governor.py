@@ -40,10 +40,10 @@ class GovernorPoints(NamedTuple):
     """A governor at one or more inclinations of its arms, from the vertical outwards: downward, Hartnell's upward.
 
     `inclination`: of the arms, rad. `angular_speed`: of equilibrium, rad/s; NaN or infinite if there is none. `low_speed`,
-    `high_speed`: between these friction holds the sleeve; NaN if at no speed. `ball_radius`: distance of the balls from the axis, m.
-    `height`: from the balls up (Hartnell's: down) to where their arms meet the axis, m. `lift`: of the sleeve, from
-    inclination 0, m. `stable`: whether the arms return when disturbed at constant speed. `period`: of small oscillations,
-    s; NaN if they grow.
+    `high_speed`: between these friction holds the sleeve; NaN if at no speed. `ball_radius`: distance of the balls from
+    the axis, m. `height`: from the balls up (Hartnell's: down) to where their arms meet the axis, m. `lift`: of the
+    sleeve, from inclination 0, m. `stable`: whether the arms return when disturbed at constant speed. `period`: of small
+    oscillations, s; NaN if they grow.
     """
 
     inclination: FloatOrArray

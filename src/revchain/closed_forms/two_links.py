@@ -348,7 +348,8 @@ def jointed_links(
 
 
 @closed_form(
-    _core.jointed_links_shapes, "inclinations 8 ulp where no two shapes meet, tensions 4 ulp of the sizes of their terms", "section 8 (14) with its secants",
+    _core.jointed_links_shapes,
+    "inclinations 8 ulp where no two shapes meet, tensions 4 ulp of the sizes of their terms", "section 8 (14) with its secants",
     cost="O(1)", made=_shapes,
 )
 def jointed_links_shapes(

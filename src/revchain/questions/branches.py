@@ -11,7 +11,7 @@ import numpy as np
 
 from .. import _core
 from ..results.branches import Branch, Branches, branch_made, branches_made, joined
-from ..systems.chain import Chain
+from ..systems.chain import Chain, checked
 from ..systems.cord import Cord
 from ..systems.held import Held
 from ..systems.numbers import STANDARD_GRAVITY, boolean, count, height_of, limit, one_positive, shown
@@ -252,7 +252,8 @@ def branches(
         raise ValueError(f"{caller}: budget must not be negative, got {shown(budget)}")
     postures, judged = [system], boolean(caller, "stability", stability)
     if judged and system._is_cord:
-        raise ValueError(f"{caller}: stability is for links, as each verdict of a cord takes long; ask shapes: branch.shape(-1).stability()")
+        instead = "ask shapes: branch.shape(-1).stability()"
+        raise ValueError(f"{caller}: stability is for links, as each verdict of a cord takes long; {instead}")
     if not boolean(caller, "hanging_only", hanging_only):
         postures = _postures(caller, system)
     diagrams = []
@@ -263,11 +264,7 @@ def branches(
     for branch in diagram:
         _ended(branch, max_angular_speed)
     if judged:
-        try:
-            for branch in diagram:
-                branch.verdict  # noqa: B018  it is stored when first read
-        except ValueError as error:
-            raise ValueError(f"{caller}: {str(error).partition(': ')[2]}") from None
+        checked(caller, False, list, (branch.verdict for branch in diagram))  # each is stored when first read
     return diagram
 
 

@@ -65,7 +65,8 @@ def drag_shape(
     Notes
     -----
     Method: continuation by arc length. From rest, the squared speed grows from 0, and the drag with it; with `half_waves`,
-    the drag grows from 0. Newton's method has the exact derivative, eliminated link by link, and balances the forces in twice the digits.
+    the drag grows from 0. Newton's method has the exact derivative, eliminated link by link, and balances the
+    forces in twice the digits.
     Drag is integrated along each link by Gauss's rule. A way that turns back (a fold) is followed round; if it does not
     lead to the full speed or drag, `DragShape.status` is ``fold`` and the shape is that at the first fold. Then try the
     other way: ``half_waves=1``, or none. A support on a spring yields alike in all horizontal directions.

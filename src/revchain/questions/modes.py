@@ -477,7 +477,10 @@ def count_modes(
         raise ValueError(f"{caller}: {what}; take them from modes(rig)")
     if kind == "rig" and speed is not None:
         return _core.count_rig_modes(of._under(one), speed, False, one)[()]
-    height = positive(caller, "conical_height", height) if speed is None else one / positive(caller, "angular_speed", angular_speed) ** 2  # type: ignore[arg-type]
+    if speed is None:
+        height = positive(caller, "conical_height", height)
+    else:
+        height = one / positive(caller, "angular_speed", angular_speed) ** 2  # type: ignore[arg-type]
     if kind == "rig":
         return _core.count_rig_modes(of._under(one), height, True, one)[()]
     if kind == "cord":

@@ -541,10 +541,10 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         that of the sensitivities, 0.6 microseconds for each link and mode.
 
         The extremes of ``worst=True`` are to all orders, and rounding is included; those of cords rest on `error_bound`,
-        which is not proved for them. They are exact, reached at a corner
-        of the box, for most tolerances of masses, lengths in proportion, radii of gyration and of the support; for
-        independent lengths and centroids of bodies they may be wider than the speeds reached: see `WorstCase.gap`. Cost
-        for each mode: 10 milliseconds for ten links, 0.6 seconds for a hundred; more where the box must be divided.
+        which is not proved for them. They are exact, reached at a corner of the box, for most tolerances of masses, lengths
+        in proportion, radii of gyration and of the support; for independent lengths and centroids of bodies they may be
+        wider than the speeds reached: see `WorstCase.gap`. Cost for each mode: 10 milliseconds for ten links, 0.6 seconds
+        for a hundred; more where the box must be divided.
         Method: Loewner bounds of the two quadratic forms, and Courant and Fischer's theorem at a corner of the box.
 
         Examples

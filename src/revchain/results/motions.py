@@ -145,17 +145,17 @@ class Response(Result, Moving):
             *speed_columns(speed, 5),
             Column("modes_below", self.modes_below.reshape(-1), "modes below"),
         ]
-        if pins.size and damped:
-            columns += [
-                Column(f"{name.replace(' ', '_')}_amplitude", size[:, 0], f"{name} off axis (m)", 5),
-                Column(f"{name.replace(' ', '_')}_phase", np.angle(offset[:, 0]), "ahead (°)", 4, shown=np.degrees(np.angle(offset[:, 0])), unit="rad"),
-            ]
-        elif pins.size:
-            columns.append(Column(f"{name.replace(' ', '_')}_offset", offset[:, 0], f"{name} off axis (m)", 5))
-        if pins.size and self.amplification is not None:
-            first = self.amplification.reshape(offset.shape)[:, 0]
-            columns.append(Column("first_pin_amplification", np.abs(first) if damped else first, "over support", 4))
         if pins.size:
+            if damped:
+                columns += [
+                    Column(f"{name.replace(' ', '_')}_amplitude", size[:, 0], f"{name} off axis (m)", 5),
+                    Column(f"{name.replace(' ', '_')}_phase", np.angle(offset[:, 0]), "ahead (°)", 4, shown=np.degrees(np.angle(offset[:, 0])), unit="rad"),
+                ]
+            else:
+                columns.append(Column(f"{name.replace(' ', '_')}_offset", offset[:, 0], f"{name} off axis (m)", 5))
+            if self.amplification is not None:
+                first = self.amplification.reshape(offset.shape)[:, 0]
+                columns.append(Column("first_pin_amplification", np.abs(first) if damped else first, "over support", 4))
             every = np.unique(pins).size == self.system.size + 1
             columns.append(Column("largest_offset", farthest, f"farthest {'pin' if every else 'of these pins'} (m)", 5))
         columns += [

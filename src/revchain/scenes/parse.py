@@ -16,7 +16,7 @@ from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin
 import msgspec
 
 from ..systems.numbers import file_path
-from ..systems.units import SI, si_value
+from ..systems.units import NUMBER, SI, si_value
 from .error import Problem, SceneError
 from .positions import joined, positions_in
 from .tables import BESIDE, QUESTIONS, SYSTEMS, Link, fields_of
@@ -427,9 +427,8 @@ def several(key: str, value: Any) -> str:
     if key not in one or not isinstance(parts, list) or len(parts) < 2:
         return ""
     if isinstance(value, str):
-        number = r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?"
         is_decimal = re.fullmatch(rf"\s*[+-]?\d+,\d+([eE][+-]?\d+)?\s*[A-Za-z/]*\s*", value)  # the mark, as the message says
-        if is_decimal or not all(re.fullmatch(rf"{number}\s*[A-Za-z/]*", part) for part in parts):
+        if is_decimal or not all(re.fullmatch(rf"{NUMBER}\s*[A-Za-z/]*", part) for part in parts):
             return ""
     values = f"[{', '.join(map(written, parts))}]"
     return f'; for several speeds write a study with [vary."{key}"] and values = {values}: revchain sweep STUDY'

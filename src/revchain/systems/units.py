@@ -12,9 +12,9 @@ import numpy as np
 
 from .extras import require
 
-_NUMBER = r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?"
+NUMBER = r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?"
 _UNIT = r"([a-zA-Zµμ°]+((\^|\*\*)-?\d)?|%)"
-PATTERN = rf"^\s*{_NUMBER}\s*((1\s*)?/\s*)?{_UNIT}((\s*[*/]\s*|\s+){_UNIT})*\s*$"
+PATTERN = rf"^\s*{NUMBER}\s*((1\s*)?/\s*)?{_UNIT}((\s*[*/]\s*|\s+){_UNIT})*\s*$"
 """A number and a unit, such as ``39.1396 inch``, ``9.81 m/s^2`` or ``60 1/min``.
 
 Exponents have one digit, because pint evaluates any expression, and ``m**9**9**9`` would never end.
@@ -90,7 +90,7 @@ def speed_unit(value: Any) -> str | None:
         return next((unit for unit in map(speed_unit, value) if unit), None)
     if isinstance(value, str):
         value = (with_tolerance(value) or (value,))[0]
-        found = re.fullmatch(rf"\s*{_NUMBER}(.*)", value)
+        found = re.fullmatch(rf"\s*{NUMBER}(.*)", value)
         return _way(found[4].strip()) if found and re.match(PATTERN, value) else None
     return _way(str(value.units)) if hasattr(value, "dimensionality") else None
 
@@ -119,7 +119,7 @@ def with_tolerance(text: str) -> tuple[str, str] | None:
     if found is None:
         return None
     value, spread, unit = found[1], found[2], found[3] or ""
-    own = [re.fullmatch(rf"{_NUMBER}\s*(.*)", part) for part in (value, spread)]
+    own = [re.fullmatch(rf"{NUMBER}\s*(.*)", part) for part in (value, spread)]
     units = [part[4] if part else "" for part in own]
     value = f"{value} {unit or units[1]}".strip() if own[0] and not units[0] and units[1] != "%" else value
     spread = f"{spread} {unit or units[0]}".strip() if own[1] and not units[1] else spread
@@ -141,7 +141,7 @@ def unpacked(value: Any) -> Any:
 def _numbers_of(text: Any) -> Any:
     if isinstance(text, list):
         return [_numbers_of(item) for item in text]
-    return float(text) if re.fullmatch(_NUMBER, text) else text
+    return float(text) if re.fullmatch(NUMBER, text) else text
 
 
 def has_units(value: Any) -> bool:
@@ -182,14 +182,14 @@ def si_value(text: str, quantity: str) -> float:
     wanted = f'must be a number, or a number and its unit such as "{example}"' if example else f"must be {kind}"
     if len(text) > 100 or re.match(PATTERN, text) is None:
         point = re.sub(r"(?<=\d),(?=\d)", ".", text, count=1)
-        number = re.fullmatch(_NUMBER, point.strip())
+        number = re.fullmatch(NUMBER, point.strip())
         right = point.strip() if number else f'"{point}"' if re.match(PATTERN, point) else ""
         hint = f"; write {right} without quotes" if right else ""
         hint = f"; the decimal mark is a point: write {right}" if right and point != text else hint
         raise ValueError(f'{wanted}, got "{text}"{hint}')
     if not example:
         raise ValueError(f'{wanted}, got "{text}"')
-    number = re.match(rf"\s*{_NUMBER}", text)
+    number = re.match(rf"\s*{NUMBER}", text)
     assert number is not None
     unit = text[number.end() :].strip()
     if kind == "an angular speed" and (bare := re.sub(r"\s", "", unit)) in (*_TURNS, *_UNCLEAR):

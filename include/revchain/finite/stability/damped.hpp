@@ -64,7 +64,7 @@ std::optional<Judgement> judged_damped_in(StabilityFrame frame, const DisturbedI
         const double error =
             std::abs(step) + safety * (4 * 0x1p-52 * given + rounding * computed) / std::abs(slope);
         const auto turned =
-            rounded(s * (bilinear(x, d.bending, x, j))*s - bilinear(Y, d.swivelling, Y, j));
+            rounded(s * (bilinear(x, d.bending, x, j)) * s - bilinear(Y, d.swivelling, Y, j));
         const auto dragged =
             rounded(s * s * bilinear(x, d.drag_in_plane, x, j) -
                     two * bilinear(x, d.drag_coupling, Y, j) - bilinear(Y, d.drag_across, Y, j));
