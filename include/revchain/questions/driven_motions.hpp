@@ -91,7 +91,7 @@ class DrivenMotions {
             const Motion& each = motions[j];
             const double far = std::abs(each.rate), decay = -each.rate.real();
             if (far == 0) continue;
-            const Vector<double> part = size_of(each, amplitude[j]);
+            const Vector<double> part = deflected(each, amplitude[j]);
             if (decay < -1e-12 * far && part.maxCoeff() > 0)  // it grows
                 return Vector<double>::Constant(pins_, std::numeric_limits<double>::infinity());
             if (decay < 0.05 * far) {
@@ -119,8 +119,7 @@ class DrivenMotions {
     double cancelled(const std::vector<Complex>& amplitude, const Vector<double>& sway) const {
         Vector<double> size = Vector<double>::Zero(pins_);
         for (std::size_t j = 0; j < motions.size(); ++j)
-            if (motions[j].rate != Complex(0.0))
-                size += size_of(motions[j], amplitude[j]);
+            if (motions[j].rate != Complex(0.0)) size += deflected(motions[j], amplitude[j]);
         const auto times = [](double of, double sum) { return of > sum ? of / sum : 1.0; };
         const Index last = pins_ - 1;  // the support moves by itself
         return std::max(times(size.head(last).maxCoeff(), sway.head(last).maxCoeff()),
@@ -137,7 +136,7 @@ class DrivenMotions {
 
    private:
     /// The largest deflections of one free motion.
-    static Vector<double> size_of(const Motion& of, const Complex& amplitude) {
+    static Vector<double> deflected(const Motion& of, const Complex& amplitude) {
         return of.times * std::abs(amplitude) * deflections(of.shape).cwiseAbs();
     }
 
