@@ -433,7 +433,7 @@ HOLDS = (
           lambda r: max(float(row["worst_bound"] or 0) for row in r("steady-shapes")) <= 4.45e-16),
     Holds("docs/accuracy.md", "Every reported bound is at most 2 ulp",
           lambda r: max(float(row["worst_bound_ulp"]) for row in r("accuracy")) <= 2),
-    Holds("docs/accuracy.md", "which lose everything below κ' = 1e-8", elliptic_lost),
+    Holds("docs/accuracy.md", "of which GSL loses everything below κ' = 1e-8", elliptic_lost),
     Holds("docs/models.md", "The choice takes less than a microsecond in C++, and about two for a hundred unequal links",
           lambda r: r.about["parts"]["select"]["status"] == 0),
     Holds("docs/theory/convergence.md", "the order is 1.000 with plummets at the lower ends. It is 2.00 with",

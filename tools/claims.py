@@ -154,12 +154,13 @@ class Tree:
         page = (self.root / "docs/accuracy.md").read_text("utf-8")
         section = page.partition("## Claims and their tests\n")[2].partition("\n## ")[0]
         rows = [line.strip("| ").split(" | ") for line in section.splitlines() if line.startswith("| `")]
-        folder = {"cpp": "cpp", "py": "python"}
-        tests = [re.findall(r"`([\w/]+\.(cpp|py))`: ([^;]+)", row[-1]) for row in rows]
-        return [
-            (row[0], [f"tests/{folder[end]}/{file}: {name.strip()}" for file, end, name in found])
-            for row, found in zip(rows, tests, strict=True)
-        ]
+        folder, named = {"cpp": "cpp", "py": "python"}, re.compile(r"`([\w/]+\.(cpp|py))`: ([^`]+)")
+
+        def tests(cell: str) -> list[str]:
+            files = [(f"tests/{folder[end]}/{file}", names) for file, end, names in named.findall(cell)]
+            return [f"{file}: {name.strip()}" for file, names in files for name in names.rstrip("; ").split(";")]
+
+        return [(row[0], tests(row[-1])) for row in rows]
 
     @cached_property
     def registers(self) -> dict[str, dict[str, Any]]:
