@@ -27,35 +27,32 @@ Value = TypeVar("Value")
 
 
 class Field(Generic[Value]):
-    """One item of a result, of any type: given when the result is made, or computed on first use and then stored.
+    """One item of a result: given when the result is made, or computed on first use and then stored.
 
-    Two results are equal if all fields that are parts are equal, and a file holds all of these. Other fields follow from
-    them; a file holds those that were computed. A field without a function is a part unless it says ``part=False``.
+    Results are equal if their fields that are parts are equal, and files hold these. Other fields follow from them; files
+    hold those that were computed. A field without a function is a part unless it says ``part=False``.
 
-    A field with a heading is a column of the printed table, in the order of the fields, and one with `axes` a column of
-    dictionaries, files and, unless it holds arrays, data frames. A field with `fact` describes the whole result in
-    these. A column that a result does not have, or that is None, is left out.
+    A field with a heading is a column of the printed table, and one with `axes` a column of dictionaries and files. A field
+    with `fact` describes the whole result in these. A column that is None is left out.
 
     Attributes
     ----------
     otherwise : callable, optional
-        Function of the result for what its compiled result does not have.
+        Function of the result where its compiled result has no such field.
     heading : str or callable
-        Heading of the column, to which the unit is added unless it ends with ")"; or a function of the result that returns
-        it, empty if the column is not printed.
+        Heading of the column, to which the unit is added unless it ends with ")"; or a function of the result.
     unit : str
-        Unit of the numbers. Angles (``"rad"``) are printed in degrees. ``"force"`` is N for a system given by mass, else
-        the unit of its weights, which is unknown.
+        Unit of the numbers. Angles (``"rad"``) are printed in degrees. ``"force"`` is N for a system given by mass.
     digits : int
         Number of significant digits in printed tables.
     axes : tuple of str, optional
-        Names of the axes after the first, which counts the rows; or a function of the result that returns them.
+        Names of the axes after the first; or a function of the result.
     shown : callable, optional
-        Function of the result that returns what is printed instead, such as words.
+        Function of the result that returns what is printed instead.
     joined : bool
-        Whether the field is a result with the same rows, whose columns are added to those of this one.
+        Whether the columns of the field, a result with the same rows, are added to those of this one.
     key : str, optional
-        Name of the column (the argument `column`), if it is not that of the field.
+        Name of the column (argument `column`) if it differs from that of the field.
     left : bool
         Whether printed tables align the column on the left.
     """
@@ -131,21 +128,20 @@ _ASKED = ("_speed_unit", "_asked_notes", "_by_speed")  # how the question was as
 
 
 class UnavailableError(AttributeError, ValueError):
-    """The error of a field that some results of a class do not have; for `hasattr` they do not have it."""
+    """The error of a field that some results of a class do not have."""
 
 
 class Result(Unchangeable):
     """The base of all results: immutable values that can be pickled; two of one class are equal if their parts are.
 
-    A subclass lists its data as `Field`s, from which the table, dictionaries, files and equality follow. If a
-    compiled result computes fields, `_from_parts` of the subclass makes that compiled result from the parts of a file.
-    Arguments of the class statement:
+    A subclass lists its data as `Field`s, from which the table, dictionaries, files and equality follow. Its
+    `_from_parts` makes a compiled result from the parts of a file. Arguments of the class statement:
 
     - `row`: name of what a row of the table is, such as ``"mode"``;
     - `title`: line above the table, with names of fields or properties in braces;
     - `notes`: lines below it, likewise;
     - `spread`: whether a long table prints evenly spaced rows instead of the first ones;
-    - `good`: name of the field that says whether everything was found and proved, by True or by a word.
+    - `good`: name of the field that says whether everything was found and proved.
     """
 
     __slots__ = ("__dict__",)  # has the fields known so far and, as `_core`, the compiled result
@@ -188,7 +184,7 @@ class Result(Unchangeable):
         return result
 
     def _found(self) -> Any:
-        """Return the compiled result, which is made from the parts if the result was loaded."""
+        """Return the compiled result; of a loaded one it is made from the parts."""
         core = self.__dict__["_core"]
         if core is None:
             core = self.__dict__["_core"] = self._from_parts()
@@ -205,7 +201,7 @@ class Result(Unchangeable):
     _unused: Collection[str] = ()  # names of columns that this result does not need
 
     def _left_out(self) -> Collection[str]:
-        """Names of columns that a printed table leaves out, because they are not needed or would take long to compute."""
+        """Names of columns that a printed table leaves out."""
         return self._unused
 
     def _sheet(self, brief: bool = False) -> Sheet:
@@ -261,8 +257,7 @@ class Result(Unchangeable):
         Returns
         -------
         dict
-            The data. They can be written as JSON unless a number is infinite or NaN. The entry ``system`` of a result that
-            has a system holds it in numbers, as its own `to_dict` returns it. The `from_dict` of its class makes it again.
+            The data. The entry ``system`` holds the system as its own `to_dict` returns it.
 
         Examples
         --------
@@ -276,7 +271,7 @@ class Result(Unchangeable):
         return as_dict(self._full())
 
     def to_dataframe(self) -> DataFrame:
-        """Return a pandas table with one row for each row of the result (of `Branches`: for each point).
+        """Return a pandas table with one row for each row of the result.
 
         Returns
         -------
@@ -302,8 +297,7 @@ class Result(Unchangeable):
         Returns
         -------
         xarray.Dataset
-            The data set, with arrays of any number of axes. The attribute ``system`` holds the system, if the result has
-            one, in numbers as JSON.
+            The data set. The attribute ``system`` holds the system in numbers as JSON.
 
         Raises
         ------
@@ -321,9 +315,8 @@ class Result(Unchangeable):
     def to_excel(self, path: str | os.PathLike[str]) -> None:
         """Write the result to a workbook for a spreadsheet program.
 
-        The first sheet describes the system and the result. Each table has a sheet of its own, with units in its headings:
-        the links or point masses, the rows of this result, and each quantity that has several numbers in a row. A quantity
-        with 16,384 numbers in a row or more is left out; the first sheet names it.
+        The first sheet describes the system and the result. Each table has a sheet of its own: the links or point masses,
+        the rows of this result, and each quantity that has several numbers in a row.
 
         Parameters
         ----------
@@ -333,17 +326,15 @@ class Result(Unchangeable):
         Raises
         ------
         ValueError
-            If the path has another ending, or a table that is not left out has more rows or columns than a sheet can have.
+            If the path has another ending, or a table is too large for a sheet.
         ImportError
             If openpyxl is not installed; the message says how to install it.
         OSError
-            If the file cannot be written (the error is also a ValueError). An existing file stays until the new one is
-            complete.
+            (a ValueError too) If the file cannot be written. An existing file stays until the new one is complete.
 
         Notes
         -----
-        Numbers have 16 digits, angles are in radians. Infinity is the text ``inf``; NaN is an empty cell.
-        Cost: about 12 microseconds a cell.
+        Numbers have 16 digits, angles are in radians. NaN is an empty cell. Cost: about 12 microseconds a cell.
 
         Examples
         --------
@@ -373,8 +364,7 @@ class Result(Unchangeable):
         ImportError
             If a package for ``.nc`` is not installed; the message says how to install it.
         OSError
-            If the file cannot be written (the error is also a ValueError). The data are first written to a temporary
-            file, which is then renamed, so that an existing file stays until the new one is complete.
+            (a ValueError too) If the file cannot be written. An existing file stays until the new one is complete.
 
         Notes
         -----
@@ -467,10 +457,7 @@ Answered = TypeVar("Answered", bound=Result)
 
 
 def asked_in(unit: str | None, found: Answered, notes: tuple[str, ...] = ()) -> Answered:
-    """Return a result that prints and draws its speeds in the unit of the question; in the usual ones for None.
-
-    Its printed table has further `notes`, about how the question was asked.
-    """
+    """Return a result that prints and draws its speeds in the unit of the question, with further `notes` below its table."""
     if notes and isinstance(found, Result):
         found.__dict__["_asked_notes"] = notes
     if unit is not None and isinstance(found, Result):
@@ -523,7 +510,7 @@ def same(one: Any, other: Any) -> bool:
 
 
 class Row:
-    """One row of a result: the number, text or array of each of its columns, by the names of the fields."""
+    """One row of a result: the entry of each of its columns, by the name of the field."""
 
     __slots__ = ("_index", "_result")
 

@@ -69,12 +69,12 @@ class Family:
 
     @property
     def yields(self) -> bool:
-        """Whether the support moves, which is one coordinate more."""
+        """Whether the support moves."""
         return math.isfinite(self.base[-2])
 
     @property
     def rigid(self) -> int:
-        """1 if the support is a trolley that rolls freely, whose motion as a whole has an infinite height; else 0."""
+        """1 if the support is a trolley that rolls freely, which adds an infinite height; else 0."""
         return int(self.base[-2] == 0)
 
     @property
@@ -84,17 +84,12 @@ class Family:
 
     @property
     def gamma(self) -> float:
-        """Bound of the rounding of sums over the coordinates, relative to the sum of the magnitudes."""
+        """Bound of the relative rounding of sums of magnitudes over the coordinates."""
         return _GAMMA * (self.size + 4)
 
     @cached_property
     def effect(self) -> Floats:
-        """1 or -1 for a factor that lowers no height or raises none, 0 for one that changes none, NaN where it is unknown.
-
-        In the drifts of the links: a factor of length, centroid and radius of gyration of a link lowers K and leaves M
-        unchanged; a radius of gyration or the mass of the support raises M; the stiffness of the support raises K. A factor
-        of all weights changes M and K in proportion but for the stiffness.
-        """
+        """1 or -1 for a factor that lowers no height or raises none, 0 for one that changes none, NaN if unknown."""
         found = np.full(len(self.low), np.nan)
         there = self.base != 0
         weight, length, centroid, radius = (there[:-2] & self.follows[:, :-2]).reshape(-1, 4, self.links).swapaxes(0, 1)
@@ -112,7 +107,7 @@ class Family:
 
     @cached_property
     def inverted(self) -> NDArray[np.bool_]:
-        """Whether a way to another point is straight in the inverse of a factor, in which M and K are of lower degree."""
+        """Whether a way to another point is straight in the inverse of a factor."""
         return np.asarray(self.follows[:, self.links : 2 * self.links].any(axis=1))
 
     @cached_property
@@ -161,7 +156,7 @@ class Family:
         return rows
 
     def modes(self, factors: Floats) -> tuple[Floats, Floats]:
-        """Conical heights at a point, largest first, and the drifts of the modes as columns; a rigid motion is left in."""
+        """Conical heights at a point, largest first, and the drifts of the modes as columns."""
         return solved(*self.forms(factors))
 
     def slopes(self, factors: Floats, height: float, drift: Floats) -> Floats:
@@ -198,8 +193,7 @@ def _below(weight: Floats) -> Floats:
 def solved(inertia: Floats, pull: Floats) -> tuple[Floats, Floats]:
     """Eigenvalues of M x = L K x, largest first, and vectors as columns; NaN if K is not positive definite.
 
-    A zero at the end of K, that of a trolley that rolls freely, gives an infinite eigenvalue. The rest of K must then be
-    positive definite, which is not checked.
+    A zero at the end of K, that of a trolley that rolls freely, gives an infinite eigenvalue.
     """
     shift = 0.0
     if pull[-1, -1] == 0:
@@ -276,10 +270,7 @@ def _pull(family: Family, parts: _Parts) -> Interval:
 
 
 def _lost(family: Family, parts: _Parts, pull: Interval) -> float:
-    """Bound of the relative error of K, and so of heights, by rounding where a centroid above its pin takes load off a link.
-
-    Elsewhere K is a sum of positive terms, whose rounding the proof includes.
-    """
+    """Bound of the relative error of K, and so of heights, by rounding where a centroid is above its pin."""
     weight, part = parts.weight[1], np.maximum(np.abs(parts.part[0]), np.abs(parts.part[1]))
     terms = (weight * part + _below(weight)) / parts.length[0]
     above = parts.part[0] < 0
@@ -288,7 +279,7 @@ def _lost(family: Family, parts: _Parts, pull: Interval) -> float:
 
 
 def outermost(family: Family, low: Floats, high: Floats, row: int, side: int) -> float:
-    """Bound of a height in a box from forms that enclose all of the box: M from one end, K from the other."""
+    """Bound of a height in a box from M at one end and K at the other."""
     parts = _parts(family, low, high)
     pull = _pull(family, parts)
     if not (pull[0][: family.links] > 0).all():
@@ -313,7 +304,7 @@ def outermost(family: Family, low: Floats, high: Floats, row: int, side: int) ->
 
 
 class _Box:
-    """A part of the box: bounds one height from above (side 1) or below (side -1) by a proof from one of its corners."""
+    """A part of the box: bounds one height from above (side 1) or below (side -1) by a proof from a corner."""
 
     def __init__(self, family: Family, low: Floats, high: Floats, row: int, side: int) -> None:
         self.family, self.low, self.high, self.row, self.side = family, low, high, row, side
@@ -404,10 +395,7 @@ class _Box:
 
     def _changes_in(self, box_low: Floats, box_high: Floats) -> Floats:
         """Derivatives of the forms in a box by each active factor, or by its inverse: of M beside its diagonal, of its
-        diagonal, of K; each as middle and radius, shape (active, 3, 2, size).
-
-        M has the entry ``(p, q)`` in column ``min(p, q)``; K is diagonal.
-        """
+        diagonal, of K; each as middle and radius, shape (active, 3, 2, size)."""
         family, active, links = self.family, self.active, self.family.links
         follows, turned = family.follows[active], family.inverted[active, None]
         per = np.array([family.intervals(box_low, box_high, without=int(i)) for i in active])
@@ -441,7 +429,7 @@ class _Box:
         return np.stack([_middle(each) for each in (off, own, gravity)]).transpose(2, 0, 1, 3)
 
     def _slack(self, height: float) -> tuple[float, Floats]:
-        """How far M - L K, times the side, can be above 0 in the box, on the modes from this one on; see the theorem."""
+        """How far M - L K, times the side, can be above 0 in the box, on the modes from this one on."""
         side, gamma = self.side, self.family.gamma
         form = side * (self.inertia - height * self.pull)
         error = self.sizes[0] + height * self.sizes[1]

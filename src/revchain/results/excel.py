@@ -49,7 +49,7 @@ class Page(NamedTuple):
 
 
 def pages_of(results: Mapping[str, Result], title: str = "") -> list[Page]:
-    """Return the sheets for named results of one system: its single facts, its links or point masses, and the tables."""
+    """Return the sheets for named results of one system: its facts, its links or point masses, and the tables."""
     from .. import __version__
 
     first = next(iter(results.values()))
@@ -80,7 +80,7 @@ def pages_of(results: Mapping[str, Result], title: str = "") -> list[Page]:
 
 
 def _facts(sheet: Sheet) -> list[tuple[str, Any, str]]:
-    """The numbers and words of a result; those of an array one by one."""
+    """The numbers and words of a result."""
     rows: list[tuple[str, Any, str]] = []
     for name, value in sheet.facts.items():
         value, words = plain(value), name.replace("_", " ")
@@ -92,7 +92,7 @@ def _facts(sheet: Sheet) -> list[tuple[str, Any, str]]:
 
 
 def _tables(name: str, sheet: Sheet) -> list[Page]:
-    """The table of a result, and a sheet for each quantity that has a number for each pin or link."""
+    """The table of a result, and a sheet for each quantity with several numbers in a row."""
     keys = [column for column in sheet.columns[:1] if not column.axes]
     arrays = [column for column in sheet.columns if column.axes]
     pages = [Page(name, _single(Sheet(sheet.row, "", [column for column in sheet.columns if not column.axes])))]
@@ -113,7 +113,7 @@ def _named(sheet: Sheet) -> Callable[[str, int], str]:
 
 
 def _padded(rows: Any) -> Floats | None:
-    """Rows of numbers as one array of two axes, the gaps filled with NaN; None if they have more axes."""
+    """Rows of numbers as an array of two axes, the gaps filled with NaN; None for more axes."""
     if isinstance(rows, np.ndarray):
         return rows if rows.ndim == 2 else None
     width = max((len(row) for row in rows), default=0)
@@ -124,7 +124,7 @@ def _padded(rows: Any) -> Floats | None:
 
 
 def _single(sheet: Sheet) -> list[Column]:
-    """The columns of a table as numbers, under headings with units. Angles are in radians, as in all files."""
+    """The columns of a table as numbers, under headings with units."""
     columns = []
     for column in in_columns(sheet, MOST_ACROSS):
         values = column.values
@@ -135,7 +135,7 @@ def _single(sheet: Sheet) -> list[Column]:
 
 
 def heading_of(column: Column) -> str:
-    """Return the heading of a column: its name in words, with the unit of its numbers."""
+    """Return the heading of a column: its name in words, with the unit."""
     if column.heading and (not column.unit or f"({column.unit})" in column.heading) and "°" not in column.heading:
         return column.heading
     words = column.name.replace("_", " ") if "°" in column.heading or not column.heading else column.heading
@@ -143,7 +143,7 @@ def heading_of(column: Column) -> str:
 
 
 def write_workbook(path: Path, pages: Iterable[Page], asked: str | os.PathLike[str]) -> None:
-    """Write the sheets to a file. ValueError if one of them has more rows or columns than a sheet can have."""
+    """Write the sheets to a file; a ValueError if one has too many rows or columns."""
     openpyxl, styles = (require(name, "excel", PURPOSE) for name in ("openpyxl", "openpyxl.styles"))
     pages, taken = list(pages), set[str]()
     for page in pages:
@@ -166,7 +166,7 @@ def write_workbook(path: Path, pages: Iterable[Page], asked: str | os.PathLike[s
 
 
 def _cell(value: Any) -> Any:
-    """A value for a cell: a plain number, text without characters that a workbook cannot hold, or None."""
+    """A value for a cell: a number, a text or None."""
     value = plain(value)
     if isinstance(value, list | tuple | dict):
         value = " ".join(map(repr, value))
@@ -183,7 +183,7 @@ def _legal(text: str) -> str:
 
 
 def _sheet_name(name: str, taken: set[str]) -> str:
-    """A name that a sheet may have, and that no other has."""
+    """A name that a sheet may have, different from those taken."""
     name = short = re.sub(r"[\[\]:*?/\\']", " ", name.replace("_", " "))[:MOST_LETTERS].strip() or "sheet"
     number = 2
     while short.lower() in taken:
@@ -193,7 +193,7 @@ def _sheet_name(name: str, taken: set[str]) -> str:
 
 
 def _dress(cells: Any, styles: Any, page: Page, headings: list[str]) -> None:
-    """Make the headings bold and keep them in view, and the columns as wide as what they hold."""
+    """Make the headings bold and keep them in view, and the columns wide enough."""
     cells.freeze_panes = "A2"
     for k, heading in enumerate(headings[:MOST_DRESSED]):
         top = cells.cell(1, k + 1)
@@ -213,12 +213,12 @@ def _dress(cells: Any, styles: Any, page: Page, headings: list[str]) -> None:
 
 
 def name_of(result: Result) -> str:
-    """Return the name of a result in words, from that of its class."""
+    """Return the name of a result in words."""
     return re.sub(r"(?<=[a-z])(?=[A-Z])", " ", type(result).__name__).lower()
 
 
 def save_workbook(caller: str, path: str | os.PathLike[str], results: Mapping[str, Result], title: str = "") -> None:
-    """Write results of one system to a workbook; if that fails, an existing file stays."""
+    """Write results of one system to a workbook."""
     if Path(file_path(caller, "path", path)).suffix.lower() != ".xlsx":
         raise ValueError(f"{caller}: path must end in .xlsx, got {os.fspath(path)}; for other files: save, to_dataframe")
     require("openpyxl", "excel", PURPOSE)

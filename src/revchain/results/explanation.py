@@ -70,12 +70,12 @@ class Explanation(Result, row="method", title="{_heading}", good="meets_toleranc
     _chosen: Field[list[bool]] = Field("Whether each method is chosen.", _column("chosen"), axes=(), column="chosen")
     rtol: Field[float] = Field("Requested relative tolerance; 0 for the best possible.", fact=True)
     meets_tolerance: Field[bool] = Field(
-        "Whether the chosen method is within `rtol`; if not, no method is, and it is the most accurate one.", fact=True
+        "Whether the chosen method is within `rtol`; if not, it is the most accurate one.", fact=True
     )
 
     @property
     def rows(self) -> tuple[MethodEstimate, ...]:
-        """For each method its name, whether it applies (if not, the reason), the bound of its relative error, the expected
+        """For each method its name, whether it applies, the reason if not, the bound of its relative error, the expected
         time in seconds, and whether it is chosen."""
         return tuple(MethodEstimate(*row) for row in self.estimates)
 

@@ -13,12 +13,12 @@ from typing import Any
 
 
 class OutputError(OSError, ValueError):
-    """The error of a file that cannot be written, or of a model that cannot be read; an OSError and a ValueError."""
+    """The error of a file that cannot be written, or of a model that cannot be read."""
 
 
 @contextmanager
 def naming(path: str | os.PathLike[str]) -> Iterator[None]:
-    """Turn an OSError of any library into one that names the path asked for, not a temporary file."""
+    """Turn an OSError into one that names the path asked for, not a temporary file."""
     try:
         yield
     except OutputError:
@@ -29,7 +29,7 @@ def naming(path: str | os.PathLike[str]) -> Iterator[None]:
 
 
 class _Unfailing(FileIO):
-    """A file whose writes always seem to succeed; the first failure is stored."""
+    """A file whose writes seem to succeed; the first failure is stored."""
 
     failure: OSError | None = None
 
@@ -65,9 +65,8 @@ def hdf5_file(path: str | os.PathLike[str], mode: str = "w+") -> Iterator[FileIO
 def written_aside(*paths: str | os.PathLike[str]) -> Iterator[list[Path]]:
     """Yield an empty temporary file beside each path or target of a link, with the path's ending; rename all at the end.
 
-    A file that the caller removes from the list is not renamed, so that its path stays as it was. If anything fails before
-    the renaming, all are removed and existing files stay. A path that cannot be written raises an error at once. Devices and
-    pipes are written directly.
+    A file that the caller removes from the list is not renamed. If anything fails before the renaming, existing files stay.
+    Devices and pipes are written directly.
     """
     finals = [Path(os.path.realpath(path)) for path in paths]
     asides: list[Path] = []

@@ -46,22 +46,20 @@ class Fitted(Result, row="datum", title="Fitted: {summary}", notes=("{_lines}",)
     system: Field[Any] = Field("The system with the new values.")
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2; the fitted value if it varied.", fact=True)
     value: Field[Floats] = Field(
-        "Values of the data, shape (p,); ``fitted[path]`` is one of them. Many other values of the data in `undetermined` fit "
-        "equally well.",
+        "Values of the data, shape (p,); ``fitted[path]`` is one of them.",
         heading="value",
     )
     standard_uncertainty: Field[Floats] = Field(
-        "Standard uncertainty of each value, shape (p,): the root of its variance. NaN if the covariance is NaN.",
+        "Standard uncertainty of each value, shape (p,): the root of its variance.",
         lambda f: np.sqrt(f.covariance.diagonal()),
         heading="standard uncertainty",
     )
     present: Field[Floats] = Field("Values of the data before the fit, shape (p,).", heading="before")
     unit: Field[tuple[str, ...]] = Field(
-        "Unit of each value; empty for a number in the unit of the weights, which is unknown.", heading="unit", left=True
+        "Unit of each value; empty for the unit of the weights.", heading="unit", left=True
     )
     covariance: Field[Floats] = Field(
-        "Covariance of the values, shape (p, p), to first order. NaN for data in `undetermined`; NaN for all data if no "
-        "uncertainties were given and `degrees_of_freedom` is 0.",
+        "Covariance of the values, shape (p, p), to first order; NaN where it is not determined.",
         axes=("other_datum",),
     )
     correlation: Field[Floats] = Field(
@@ -73,7 +71,7 @@ class Fitted(Result, row="datum", title="Fitted: {summary}", notes=("{_lines}",)
     measured: Field[Floats] = Field("Measured speeds, rad/s, shape (m,); negative for backward modes.", fact=True)
     measured_uncertainty: Field[Floats] = Field(
         "Standard uncertainties of the measured speeds, rad/s, shape (m,): as given, else one relative uncertainty for all "
-        "speeds, estimated from the residuals; NaN if these are needed and `degrees_of_freedom` is 0.",
+        "speeds, estimated from the residuals; NaN if these are too few.",
         fact=True,
     )
     computed: Field[Floats] = Field("Speeds of the modes of the new system, rad/s, shape (m,).", fact=True)
@@ -82,36 +80,35 @@ class Fitted(Result, row="datum", title="Fitted: {summary}", notes=("{_lines}",)
         fact=True,
     )
     normalized_residual: Field[Floats] = Field(
-        "Measured minus computed, divided by the uncertainty of the measurement, shape (m,). Where a period was measured it is "
-        "that of the period, with the sign of the speed's residual.",
+        "Residual divided by the uncertainty of the measurement, shape (m,). Where a period was measured it is that of the "
+        "period, with the sign of the speed's residual.",
         fact=True,
     )
     leverage: Field[Floats] = Field(
-        "Leverage of each measurement, shape (m,), from 0 to 1: the diagonal of the hat matrix. Their sum is the number of "
-        "data determined. With leverage 1 a measurement alone decides a combination of the data, and cannot disagree.",
+        "Leverage of each measurement, shape (m,), from 0 to 1: the diagonal of the hat matrix. With leverage 1 a "
+        "measurement alone decides a combination of the data, and cannot disagree.",
         fact=True,
     )
     standardized_residual: Field[Floats] = Field(
         "Residual of each measurement divided by its own standard deviation, shape (m,): that of the measurement times "
         "``sqrt(1 - leverage)``. If no uncertainties were given, that deviation is estimated from the other measurements "
-        "(externally studentized); NaN with fewer than two degrees of freedom. NaN where the leverage is 1.",
+        "(externally studentized). NaN where it is not determined.",
         fact=True,
     )
     disagreement_limit: Field[float] = Field(
         "Size that the largest standardized residual exceeds by chance in at most one fit of a hundred, if model and "
-        "uncertainties are correct: 2.8 for two measurements, 3.3 for ten; more if uncertainties are estimated. NaN if no "
-        "measurement can disagree.",
+        "uncertainties are correct: 2.8 for two measurements, 3.3 for ten; more if uncertainties are estimated.",
         fact=True,
     )
     disagreeing: Field[tuple[int, ...]] = Field(
         "Number of the mode whose measured speed disagrees with the others: its standardized residual is the largest and "
-        "exceeds `disagreement_limit`. Several modes if the measurements cannot tell which one it is; empty if none does.",
+        "exceeds `disagreement_limit`. Several if the measurements cannot tell which one; empty if none does.",
         lambda f: f._most_unlike(),
         fact=True,
     )
     chi_square: Field[float | None] = Field(
         "Sum of squares of the normalized residuals; about `degrees_of_freedom` if model and uncertainties are correct. "
-        "None if no uncertainties were given.",
+        "None without given uncertainties.",
         fact=True,
     )
     degrees_of_freedom: Field[int] = Field(
@@ -119,8 +116,7 @@ class Fitted(Result, row="datum", title="Fitted: {summary}", notes=("{_lines}",)
         fact=True,
     )
     undetermined: Field[tuple[tuple[str, ...], ...]] = Field(
-        "Groups of paths that the measurements do not determine. A single path has no effect on the measured speeds; the "
-        "effects of several paths cancel.",
+        "Groups of paths that the measurements do not determine.",
         fact=True,
     )
 
@@ -198,6 +194,6 @@ class Fitted(Result, row="datum", title="Fitted: {summary}", notes=("{_lines}",)
 
 
 def _over(one: Floats, other: Floats) -> Floats:
-    """The quotient; NaN for 0 divided by 0, as in a fit without residuals."""
+    """The quotient; NaN for 0 divided by 0."""
     with np.errstate(divide="ignore", invalid="ignore"):
         return one / other

@@ -27,14 +27,9 @@ SPEED_ROUNDING = 2.1 * 2.0**-52  # rounding of a speed computed from a height
 class Certificate(Result, row="mode", title="Certificate: intervals proved to hold the conical heights"):
     """Intervals that are proved to contain the conical heights, and the counts that prove it.
 
-    Exactly ``above_lower[i]`` conical heights of the system exceed ``lower[i]``, and ``above_upper[i]`` exceed
-    ``upper[i]``. Because ``above_upper[i] < number[i] <= above_lower[i]``, the height with that number lies in the
-    interval: ``lower < height <= upper``.
-
-    Notes
-    -----
-    For results in double precision without flywheels `revchain.count_modes` returns the same counts at these numbers. With
-    flywheels the counts are for the direction of each mode. The heights are those of the stored data.
+    ``above_lower[i]`` conical heights of the system exceed ``lower[i]``, and ``above_upper[i]`` exceed ``upper[i]``; with
+    flywheels, of the direction of the mode. Because ``above_upper[i] < number[i] <= above_lower[i]``, the height with that
+    number lies in the interval: ``lower < height <= upper``.
 
     Examples
     --------
@@ -79,10 +74,7 @@ class Certificate(Result, row="mode", title="Certificate: intervals proved to ho
 
 
 class OtherModes(Result, row="number", title="{summary}"):
-    """The m solutions of a rig that are not steady motions: negative or complex conical heights, or complex speeds.
-
-    An infinite height (speed 0) belongs to each of the lowest links that have no net weight in the fluid: they are at rest
-    in any position.
+    """The m solutions of a rig that are not steady motions: with negative, complex or infinite heights, or complex speeds.
 
     Examples
     --------
@@ -143,7 +135,7 @@ def _of_height(name: str, of_speed: Callable[[Any], Any]) -> Callable[[Modes], N
 
 
 def _nodes(modes: Modes, name: str = "nodes") -> Any:
-    """The nodes or vertical points of each mode; of a cord they take memory in proportion to the number of the mode."""
+    """The nodes or vertical points of each mode."""
     if modes._is_damped:  # what crosses the axis moves
         return tuple(np.empty(0) for _ in modes.number)
     if modes.number.size and modes.system._kind.endswith("cord"):
@@ -169,21 +161,18 @@ def _signed_turn(speed: Any) -> Any:
 class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",), good="status"):
     """The modes of a system, slowest first: speeds, shapes, nodes and error bounds of k modes.
 
-    Heights and bounds are computed at once. Shapes, nodes, residuals and sensitivities are computed when they are first
-    read, then stored; shapes, residuals and the nodes of links also when the result is saved. Arrays are read-only. A
-    window may contain no modes (k = 0). ``modes[0]`` is a row: one number or array of each field. For a system held
-    straight at both ends, distances start at its lower end. With the support off the axis, offsets are from the vertical
-    below it, where the system hangs at rest. What the fields say about dashpots holds for linear drag, too.
+    Shapes, nodes, residuals and sensitivities are computed when they are first read. Arrays are read-only. ``modes[0]`` is
+    a row: one number or array of each field. For a system held straight at both ends, distances start at its lower end.
+    What the fields say about dashpots holds for linear drag, too.
 
     Notes
     -----
     Heights of a cord follow from zeros of Bessel functions, Greenhill (1908), section 4: of ``J0`` for a uniform cord,
     of ``Jp`` for a density s^p, of a cross product of ``J`` and ``Y`` for a uniform cord with a tip or held at both
-    ends. Those of a weightless cord are those of a string. All others are computed by power series. Accuracy
+    ends. Those of a weightless cord are those of a string; others are computed by power series. Accuracy
     (``error_bound``): 3 ulp, 2 ulp with a tip or held, 4e-15 by power series, more with point masses, a bob or jumps of
     density. Nodes and vertical points: 5 ulp (uniform), 3 ulp (a power), else 1e-15 of the length. Cost: 0.1 to 5
-    microseconds for a height in closed form, 0.4 to 3 milliseconds for each mode up to the last by power series; no more
-    for a node or a vertical point.
+    microseconds for a height in closed form, 0.4 to 3 milliseconds for each mode up to the last by power series.
 
     Examples
     --------
@@ -224,22 +213,20 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
     system: Field[Any] = Field("The system.")
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", fact=True)
     number: Field[Whole] = Field(
-        "Mode numbers, shape (k,): the slowest of all modes has number 1. For a rig with flywheels the number among those "
-        "of its direction. With dashpots the numbers are by the size of `exponent`, of both directions together.",
+        "Mode numbers, shape (k,), 1 for the slowest. For a rig with flywheels the number among those of its direction. "
+        "With dashpots the numbers are by the size of `exponent`, of both directions together.",
         otherwise=lambda m: np.arange(m._found().first, m._found().first + len(m)),
         heading="mode",
         column="mode",
     )
     direction: Field[Whole] = Field(
-        "Direction of each mode, shape (k,): 1 forward, -1 backward. Without momentum the directions do not differ, and all "
-        "are 1.",
+        "Direction of each mode, shape (k,): 1 forward, -1 backward; all 1 without momentum.",
         otherwise=lambda m: np.ones(len(m), np.int64),
         axes=(),
     )
     angular_speed: Field[Numbers] = Field(
         "Whirl speed of each mode, ``sqrt(gravity / conical_height)``, rad/s, shape (k,), negative for backward modes. "
-        "With dashpots it is the imaginary part of `exponent`. For a hanging chain it is also the natural angular "
-        "frequency of its swing in a plane. longdouble with ``precision='extended'``, else float64.",
+        "With dashpots it is the imaginary part of `exponent`. longdouble with ``precision='extended'``.",
         otherwise=_of_height("angular_speed", lambda speed: speed),
         heading="speed",
         unit="rad/s",
@@ -261,9 +248,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
     )
     speed_error_bound: Field[Floats] = Field(
         "Bound of the relative error of each angular speed, shape (k,), for the given gravity, proved if `error_bound` is; "
-        "also of frequency and period, which for a rig have up to 4.5e-16 more. With dashpots it is larger than "
-        "`error_bound` where the motion decays faster than it oscillates; 0 where the motion is proved not to oscillate, "
-        "so that the speed is exactly 0.",
+        "also of frequency and period, which for a rig have up to 4.5e-16 more.",
         otherwise=lambda m: _speed_bound(m.error_bound.astype(np.float64)),
         axes=(),
     )
@@ -274,14 +259,12 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         digits=9,
     )
     error_bound: Field[Numbers] = Field(
-        "Bound of the relative error of each conical height, shape (k,), for the data exactly as stored. It is proved; for "
-        "cords, and for formulas that `rtol` allows, it is checked by measurement. With dashpots, of each exponent: the "
-        "error divided by the size of the exponent.",
+        "Bound of the relative error of each conical height (with dashpots: of each exponent), shape (k,), for the data as "
+        "stored. It is proved; for cords, and for formulas that `rtol` allows, it is checked by measurement.",
         heading="error bound",
     )
     nodes: Field[tuple[Numbers, ...]] = Field(
-        "For each mode, the distances from the free end along the chain at which it crosses the axis, excluding supports. "
-        "With dashpots none are listed: in general no point stays on the axis.",
+        "For each mode, the distances from the free end at which it crosses the axis, without supports; with dashpots none.",
         _nodes,
         axes=("node",),
         unit="m",
@@ -290,8 +273,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
     )
     exponent: Field[Complex] = Field(
         "Exponents s of the motions ``shape * exp(s * t)``, 1/s, shape (k,). The imaginary part is the angular speed. With "
-        "dashpots the real part is negative for a motion that decays, and modes are numbered by the size of s; else it is "
-        "0.",
+        "dashpots the real part is negative for a motion that decays; else it is 0.",
         lambda m: 1j * m.angular_speed.astype(float),
         axes=(),
         unit="1/s",
@@ -310,19 +292,17 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         unit="s",
     )
     error_estimate: Field[Floats] = Field(
-        "With dashpots: estimate of the relative error of each exponent, shape (k,), also where `error_bound` is "
-        "infinite because nothing is proved. Without dashpots `speed_error_bound`.",
+        "With dashpots: estimate of the relative error of each exponent, shape (k,), also where `error_bound` is infinite.",
         otherwise=lambda m: m.speed_error_bound,
         axes=(),
     )
     rigid: Field[int] = Field(
-        "1 if a trolley rolls freely, so that the system can also move as a whole, at speed 0; that is no mode. Else 0.",
+        "1 if a trolley rolls freely: the system can then also move as a whole, at speed 0, which is no mode. Else 0.",
         otherwise=lambda m: 0,
     )
     residual: Field[Numbers | None] = Field(
         "Residual of each shape, shape (k,): largest unbalanced force at a pin divided by the largest sum of the "
-        "magnitudes of the forces at a pin. None with dashpots, and for cords, whose shapes are closed forms or power "
-        "series.",
+        "magnitudes of the forces at a pin. None with dashpots, and for cords.",
         otherwise=lambda m: None,
         axes=(),
     )
@@ -331,24 +311,21 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         lambda m: np.linspace(0.0, m._require_cord("arc_length").length, 201),
     )
     shape: Field[Numbers] = Field(
-        "Offsets of the pins from the axis, shape (k, N + 1), free end first, support last. The largest magnitude of each "
-        "mode is 1, and the free end (of a held chain the lowest pin that can move) is positive. With dashpots they are "
-        "complex, and the largest is 1: the real part is the shape at the instant when that pin is farthest out. For a "
-        "cord: offsets of the places `arc_length`, shape (k, 201); that of the free end is 1. For a cord held at both ends "
-        "the largest, at the lowest vertical point, is 1.",
+        "Offsets of the pins, shape (k, N + 1), free end first, support last. The largest magnitude of each mode is 1, and "
+        "the free end (of a held chain the lowest pin that can move) is positive. With dashpots they are complex, and the "
+        "largest is 1. For a cord: offsets of the places `arc_length`, shape (k, 201), 1 at the free end; of a cord held at "
+        "both ends, 1 at the lowest vertical point.",
         otherwise=lambda m: m.along(m.arc_length),
         axes=("pin",),
     )
     vertical_points: Field[tuple[Numbers, ...]] = Field(
-        "For a cord: for each mode the distances from the free end at which the cord is vertical, one above each node: the "
-        "part below has its centre of gravity on the axis, section 4 (13), (14) of the paper. With a bob another can lie "
-        "below the lowest node. Where the cord turns back at a point mass, that is the place. For a cord held at both ends: "
-        "one below each node, and one below the upper end.",
+        "For a cord: for each mode the distances from the free end at which the cord is vertical, or turns back at a point "
+        "mass; section 4 (13), (14) of the paper.",
         _vertical_points,
     )
     bob_slope: Field[Floats] = Field(
-        "For a cord with a bob: the slope ``d offset / d arc_length`` along the bob, minus its inclination, where the "
-        "offset of the cord's end is 1, shape (k,). An AttributeError for all others.",
+        "For a cord with a bob: the slope ``d offset / d arc_length`` along the bob where the offset of the cord's end is "
+        "1, shape (k,).",
         lambda m: _bob_slope(m),
     )
     conical_height_low: Field[Floats | None] = Field(
@@ -364,8 +341,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         unit="m",
     )
     certificate: Field[Certificate | None] = Field(
-        "The proof of the error bounds with ``certify=True``, else None. For a rig with flywheels its counts are for the "
-        "direction of each mode.",
+        "The proof of the error bounds with ``certify=True``, else None.",
         lambda m: _certificate(m),
         part=True,
         joined=True,
@@ -381,21 +357,20 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         fact=True,
     )
     available: Field[tuple[int | None, int]] = Field(
-        "Number of existing modes, forward and backward; None for the infinitely many of a cord. With dashpots the first is "
-        "the number of all, the second 0.",
+        "Number of existing modes, forward and backward; None for the infinitely many of a cord. With dashpots all are "
+        "counted in the first.",
         otherwise=lambda m: (m.system.mode_count, 0),
     )
     has_momentum: Field[bool] = Field(
-        "Whether a flywheel spins relative to its link, or has momentum, at rest: the two directions then differ.",
+        "Whether a flywheel has momentum at rest, so that the two directions differ.",
         otherwise=lambda m: False,
     )
     other_available: Field[int] = Field(
-        "Number of solutions that are not steady motions, found by counting; 0 unless a rig has some.",
+        "Number of solutions that are not steady motions.",
         otherwise=lambda m: 0,
     )
     other: Field[OtherModes] = Field(
-        "The solutions that are not steady motions, computed when first read; none with dashpots. Cost: 0.6 microseconds "
-        "per solution and link.",
+        "The solutions that are not steady motions; none with dashpots. Cost: 0.6 microseconds per solution and link.",
         lambda m: _others(m),
         fact=True,
     )
@@ -441,13 +416,12 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         Returns
         -------
         Modes
-            The modes with other speeds. Conical heights, shapes and nodes of chains and cords do not depend on gravity.
+            The modes with other speeds, and the same conical heights, shapes and nodes.
 
         Raises
         ------
         ValueError
-            If gravity is not positive and finite; if the system is a rig, or is held by a tension and given by mass or
-            weightless, because springs, flywheels and tensions in newtons do not scale with gravity.
+            If gravity is not positive and finite, or if the system is a rig, or is held by a tension in newtons.
 
         Examples
         --------
@@ -489,63 +463,51 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
     ) -> Uncertainty:
         """Return the standard deviations of conical heights and speeds for given standard deviations of the data.
 
-        With ``worst=True`` also return bounds of the speeds of all systems whose data lie within the tolerances. They are
-        proved, except for cords.
-
         Parameters
         ----------
         data : dict, optional
             Standard deviations by the path of the datum, as in `tune` and `fit`:
             ``{"links[load].mass": "5 %", "support.stiffness": "1 kN/m"}``; a number, or text with a unit or in percent. The
-            speeds of a rig must have a derivative by the datum. The path ``links[k].length`` of a point mass at its lower
-            pin or of a uniform rod is its ``length_in_proportion``.
+            path ``links[k].length`` of a point mass at its lower pin or of a uniform rod is its ``length_in_proportion``.
         mass, weight, length, centroid, radius_of_gyration, length_in_proportion : array_like, optional
             Standard deviation of the quantity of the links: a number for all links, or shape (N,). Shape (N, N) is a
             covariance of the links, with variances on its diagonal. Text such as ``"5 %"`` is relative to each link's datum,
-            and ``"+- 2 cm"`` or ``"38 m +- 2 cm"`` is the number after the sign (``+-``, ``+/-`` or ``±``);
-            ``["5 %", 0]`` is for the lowest of two links only. A quantity that is left out is exact. Deviations of different
-            quantities are independent, and so are those of different links without a covariance. For a cord: one number for
-            the mass or the length of the whole cord.
+            and ``"+- 2 cm"`` or ``"38 m +- 2 cm"`` is the number after the sign. A quantity that is left out is exact.
+            Deviations of different quantities are independent, and so are those of different links without a covariance.
+            For a cord: one number for the mass or the length of the whole cord.
         momentum, spin : array_like, optional
-            Those of the flywheels of a rig, in the same forms. Give only one; `spin` only if they were given by spin.
+            Those of the flywheels of a rig, in the same forms; `spin` if they were given by spin.
         displaced_mass, added_mass : array_like, optional
             Those of the fluid, in the same forms; weights for a rig given by weight.
         stiffness, support_mass : float or str, optional
             Standard deviation of the datum of a rig's support.
         tip_mass, tip_weight, exponent, tension : float or str, optional
-            Standard deviations of the data of a cord: of its tip, of the exponent of its density, of the tension that holds
-            it.
+            Those of a cord: of its tip, of the exponent of its density, of the tension that holds it.
         worst : bool, optional
-            Whether to find the extremes of the speeds as well, in ``.worst``. The given numbers are then
-            half-widths of tolerances: each datum lies anywhere between its value minus and plus that much.
+            Whether to bound the speeds of all systems within the tolerances as well, in ``.worst``. The given numbers are
+            then half-widths: each datum lies anywhere between its value minus and plus that much.
 
         Returns
         -------
         Uncertainty
-            The standard deviations, and the part of each datum in them; with ``worst=True`` a `WorstCase` in ``.worst``.
+            The standard deviations, and the part of each datum in them.
 
         Raises
         ------
         ValueError
             If a deviation is negative or not finite, has another shape, or a covariance is not symmetric; if the system
-            has no such datum, or was given by another; if a path is unknown, or two data are the same number; if a
-            chain is held at both ends, a cord has a bob, or a rig has springs at pins, dashpots or linear drag. With
-            ``worst=True`` also if a covariance is given, the exponent of a cord varies, a mass, length or stiffness
-            could be 0, or a radius of gyration or support mass negative; or if the system has flywheels, a fluid, standing
-            links, point masses on a cord or more than 100 links.
+            has no such datum, or no `sensitivity`. With ``worst=True`` also for a covariance, the exponent of a cord, data
+            that could be 0, flywheels, a fluid, inverted links, point masses on a cord or more than 100 links.
 
         Notes
         -----
-        The result is to first order: heights are linear in the data. If a derivative is nearly 0, or a deviation is large
-        compared with its datum, sample instead. See `Sensitivity` for the data that are constant while one changes. Cost:
+        Standard deviations are to first order. See `Sensitivity` for the data that are constant while one changes. Cost:
         that of the sensitivities, 0.6 microseconds for each link and mode.
 
-        The extremes of ``worst=True`` are to all orders, and rounding is included; those of cords rest on `error_bound`,
-        which is not proved for them. They are exact, reached at a corner of the box, for most tolerances of masses, lengths
-        in proportion, radii of gyration and of the support; for independent lengths and centroids of bodies they may be
-        wider than the speeds reached: see `WorstCase.gap`. Cost for each mode: 10 milliseconds for ten links, 0.6 seconds
-        for a hundred; more where the box must be divided.
-        Method: Loewner bounds of the two quadratic forms, and Courant and Fischer's theorem at a corner of the box.
+        The bounds of ``worst=True`` are to all orders, rounding included, and proved except for cords. They may be wider
+        than the speeds reached: see `WorstCase.gap`. Cost for each mode: 10 milliseconds for ten links, 0.6 seconds for a
+        hundred; more where the box must be divided. Method: Loewner bounds of the two quadratic forms, and Courant and
+        Fischer's theorem at a corner of the box.
 
         Examples
         --------
@@ -593,16 +555,16 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         -------
         ndarray, shape (k,) or (k, places)
             Offsets divided by that of the free end; for a cord held at both ends, by the largest. Accuracy, relative to the
-            largest offset of each mode (it can exceed 1 with a tip and for p below -1/2): 1e-15 times the mode number, twice
-            that with a tip; for a density s^p 1e-15 times ``1 + 2 sqrt((p + 1) length / conical_height)``; 1e-14 by power
-            series, 1e-11 with masses or a bob. Cost: 0.2 to 10 microseconds for each mode and place.
+            largest offset of each mode: 1e-15 times the mode number, twice that with a tip; for a density s^p 1e-15 times
+            ``1 + 2 sqrt((p + 1) length / conical_height)``; 1e-14 by power series, 1e-11 with masses or a bob. Cost: 0.2 to
+            10 microseconds for each mode and place.
 
         Raises
         ------
         ValueError
             If a number lies outside the cord.
         AttributeError
-            If the system is not a cord: offsets are linear between the pins.
+            If the system is not a cord.
 
         Examples
         --------
@@ -636,8 +598,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         Notes
         -----
         A whirling cord of weight `W` and length `L` whose free end has the offset `b` has the kinetic energy
-        ``W * L * (b * slope(L))**2 / 2`` to second order in `b`, in joules for `W` in newtons. Its potential energy is
-        equal. This holds for a cord without tip and point masses whose density is a power.
+        ``W * L * (b * slope(L))**2 / 2`` to second order in `b`, and as much potential energy, if its density is a power
+        and it has neither tip nor point masses.
 
         Examples
         --------
@@ -719,7 +681,7 @@ _DEVIATIONS = frozenset(Modes.uncertainty.__kwdefaults__ or ()) - {"worst"}
 
 
 def _summary(modes: Modes) -> str:
-    """The number of modes out of all, or their numbers if they are not the slowest; the system, method and status."""
+    """The number of modes out of all, or their numbers; the system, method and status."""
     forward, backward = modes.available
     count = None if forward is None else forward + backward
     total = "infinitely many" if count is None else f"{count:,}"
@@ -735,7 +697,7 @@ def _summary(modes: Modes) -> str:
 
 
 def _texts(nodes: Iterable[Numbers]) -> list[str]:
-    """Text with the number of nodes of each mode, and the places of the first and the last."""
+    """The number of nodes of each mode as text, with the first and the last."""
     found = []
     for places in nodes:
         shown = [f"{caller:.3g}" if caller < 1000 else f"{caller:.0f}" for caller in places[[0, -1]]] if places.size else []
@@ -768,9 +730,8 @@ def _speed_bound(error: Floats) -> Floats:
 def speed_bound_of_exponents(exponent: Complex, error: Floats, turns: bool) -> Floats:
     """Bound of the relative error of the imaginary parts of exponents whose relative error is at most `error`.
 
-    The error of an imaginary part is at most ``error * abs(exponent)``. An exponent on the real axis that is proved
-    apart from all others is exactly real, because its conjugate is an exponent too; not with wheels (`turns`), where it
-    is none.
+    An exponent on the real axis that is proved apart from all others is exactly real, because its conjugate is an exponent
+    too; not with wheels (`turns`), where it is none.
     """
     speed = np.abs(exponent.imag)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -780,7 +741,7 @@ def speed_bound_of_exponents(exponent: Complex, error: Floats, turns: bool) -> F
 
 
 def rest(values: Numbers, second: Floats | None) -> Floats | None:
-    """The second doubles if given; else what doubles leave of longdouble numbers, which text cannot hold."""
+    """The second doubles if given; else what doubles leave of longdouble numbers."""
     if second is not None or values.dtype != np.longdouble:
         return second
     with np.errstate(invalid="ignore"):

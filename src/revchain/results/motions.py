@@ -26,10 +26,9 @@ class Response(Result, Moving):
     """Forced motion of a chain or rig whose support is moved or pushed, at one or more speeds; returned by `response`.
 
     Arrays have the shape of the given speeds, ``(...)``; those of pins have one more axis. Without flywheels and a fluid
-    that turns, the numbers are also amplitudes for a support that moves to and fro along a line (base excitation). Without
-    dashpots all pins move in phase or in antiphase.
-    With dashpots offsets and forces are complex: the real part of ``offset * exp(1j * angular_speed * time)`` is where a pin
-    is while the drive goes as the cosine. What the fields say about dashpots holds for linear drag, too.
+    that turns, the numbers are also amplitudes for a support that moves to and fro along a line (base excitation). With
+    dashpots or linear drag offsets and forces are complex: the real part of ``offset * exp(1j * angular_speed * time)`` is
+    where a pin is while the drive goes as the cosine.
 
     Examples
     --------
@@ -53,12 +52,11 @@ class Response(Result, Moving):
     conical_height: Field[Floats] = Field("Conical heights ``gravity / angular_speed**2``, m, shape (...).")
     support_radius: Field[float | None] = Field("Radius of the circle, m; None if an acceleration or a force is given.")
     acceleration: Field[float | None] = Field(
-        "Amplitude of the acceleration of the support, m/s^2, if given. Its offset is opposite.", lambda r: None, part=True
+        "Amplitude of the acceleration of the support, m/s^2, if given.", lambda r: None, part=True
     )
     force: Field[float | None] = Field("Amplitude of the force on the support, if given.", lambda r: None, part=True)
     pins: Field[Whole] = Field(
-        "Numbers of the pins, from 0 for the free end, shape (P,). If a single number was given, the shape is (), and "
-        "`offset` has no dimension for pins.",
+        "Numbers of the pins, from 0 for the free end, shape (P,); if a single number was asked, without this axis.",
     )
     offset: Field[Numbers] = Field(
         "Offsets of the pins from the axis, m, shape (..., P), positive on the side of the support (of the acceleration, of the "
@@ -66,48 +64,45 @@ class Response(Result, Moving):
     )
     amplitude: Field[Floats] = Field("Sizes of the offsets, m, shape (..., P).", lambda r: np.abs(r.offset))
     phase: Field[Floats] = Field(
-        "Angles by which the pins are ahead of the drive, rad, shape (..., P), from -pi to pi; negative: they lag.",
+        "Angles by which the pins are ahead of the drive, rad, shape (..., P); negative: they lag.",
         lambda r: np.angle(r.offset),
     )
     amplification: Field[Numbers | None] = Field(
         "Offsets divided by the amplitude of the support, shape (..., P); None for a force.", lambda r: r._amplification()
     )
     error_bound: Field[Floats | None] = Field(
-        "Proved bound of the error of each offset of the chain, divided by the largest offset, shape (...): half an ulp, more "
-        "close to a resonance, infinite at a resonance. None if there is an estimate.",
+        "Proved bound of the error of each offset of the chain, divided by the largest offset, shape (...). None if there "
+        "is an estimate.",
     )
     error_estimate: Field[Floats | None] = Field(
-        "With springs at pins, dashpots, a trolley, an acceleration or a force: estimate of that error, shape (...). Else "
-        "None.",
+        "Estimate of that error, shape (...), where there is no proved bound; else None.",
         lambda r: None,
         part=True,
     )
     modes_below: Field[Whole] = Field(
-        "Number of whirl speeds of the system, without dashpots, that are slower and of the same direction, shape (...). A "
-        "support on a spring yields, a trolley only with a force. A resonance that cannot be separated from the speed is "
-        "not counted.",
+        "Number of slower whirl speeds of the same direction, without dashpots, shape (...).",
     )
     reversed: Field[Flags] = Field(
-        "Whether the free end is on the side opposite to the support (to the force), shape (...); with dashpots, whether it is "
-        "behind or ahead by more than a quarter of a turn."
+        "Whether the free end is on the side opposite to the support (to the force), shape (...); with dashpots, more than "
+        "a quarter of a turn behind or ahead."
     )
     resonant: Field[Flags] = Field("Whether the speed cannot be separated from a resonance, shape (...).")
     support_force: Field[Numbers] = Field(
-        "Horizontal outward pull of the chain on its support, N or in the unit of the weights, shape (...); if the far end of "
-        "the support's spring is moved, the pull of the spring on it. Complex with dashpots.",
+        "Horizontal outward pull on the support, or on the far end of its spring, N or in the unit of the weights, shape "
+        "(...). Complex with dashpots.",
     )
     support_force_error: Field[Floats | None] = Field(
-        "Proved bound of the error of `support_force`, in its unit; None if there is an estimate of offsets only."
+        "Proved bound of the error of `support_force`, in its unit, or None."
     )
     whirl_speeds: Field[Floats] = Field(
-        "The whirl speeds of the chain with a fixed support between the smallest and the largest speed, rad/s: the resonances. "
-        "Empty for a rig, and if there are more than 60.",
+        "The whirl speeds of a chain with a fixed support between the smallest and the largest speed, rad/s. Empty for a "
+        "rig, and if there are more than 60.",
         lambda r: r._resonances(),
     )
 
     @property
     def _support_amplitude(self) -> Any:
-        """Amplitude of the support, m, a number or with the shape of the speeds; None for a force."""
+        """Amplitude of the support, m; None for a force."""
         if self.acceleration is not None:
             return self.acceleration / self.angular_speed**2
         return self.support_radius
@@ -218,8 +213,7 @@ class Response(Result, Moving):
 class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",), spread=True):
     """Motion of a chain, rig or cord after release or under a moving support, as a sum of its k modes; returned by `swing`.
 
-    Offsets are real if the motion is in one plane. Flywheels with momentum turn the plane: offsets are then complex,
-    x + i y, and the modes are whirls of either direction.
+    Flywheels with momentum turn the plane of the swing: offsets are then complex, x + i y, and the modes are whirls.
 
     Examples
     --------
@@ -254,19 +248,19 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
         "For a cord: distance of each place from the free end, m, shape (n,). Else None.", fact=True
     )
     free_end_x: Field[Floats] = Field(
-        "Offset of the free end (of a cord: of its lowest place) at each time, m; with momentum along x.",
+        "Offset of the lowest pin or place at each time, m; with momentum along x.",
         lambda s: s.offset[:, 0].real,
         heading=lambda s: "free end: x" if s._turns else "free end",
         unit="m",
     )
     free_end_y: Field[Floats | None] = Field(
-        "With momentum: offset of the free end along y, m. Else None.",
+        "With momentum: offset of the lowest pin along y, m. Else None.",
         lambda s: s.offset[:, 0].imag if s._turns else None,
         heading="y",
         unit="m",
     )
     free_end_velocity: Field[Numbers] = Field(
-        "Velocity of the free end at each time, m/s.",
+        "Velocity of the lowest pin or place at each time, m/s.",
         lambda s: s.velocity[:, 0],
         axes=(),
         heading=lambda s: "" if s._turns else "free end",
@@ -279,8 +273,7 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
         unit="m",
     )
     largest_deflection: Field[Floats | None] = Field(
-        "Where there is an `error_estimate`: largest distance of a pin from below the support at each time, m; between the times "
-        "asked it can be larger. Else None.",
+        "Where there is an `error_estimate`: largest distance of a pin from below the support at each time, m. Else None.",
         lambda s: np.abs(s.offset - s.offset[:, -1:]).max(axis=1) if s.error_estimate is not None else None,
         heading=lambda s: "from support" if s.motion_end else "",
         unit="m",
@@ -292,8 +285,8 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
         unit="m",
     )
     error_bound: Field[Floats | None] = Field(
-        "Proved bound of the rounding error of each offset as a sum of the modes used, m, shape (T,); infinite if a link is "
-        "inverted. It grows with time only after about 1e9 swings. None for a cord, or if there is an `error_estimate`.",
+        "Proved bound of the rounding error of each offset as a sum of the modes used, m, shape (T,). None for a cord, or "
+        "if there is an `error_estimate`.",
         heading="error bound",
         unit="m",
     )
@@ -314,28 +307,26 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
     )
     velocity: Field[Numbers] = Field("Velocities of the pins or places, m/s, like `offset`.", axes=("pin",), unit="m/s")
     angular_frequency: Field[Floats] = Field(
-        "Natural angular frequency of each mode, rad/s, shape (k,), slowest first: the whirl speeds of `modes`, negative for "
-        "backward whirls (of links that do not turn about their own axes). With dashpots 0 for what only decays, in the "
-        "order of ``abs(exponent)``.",
+        "Natural angular frequency of each mode, rad/s, shape (k,), slowest first (with dashpots by ``abs(exponent)``); "
+        "negative for backward whirls.",
         fact=True,
     )
     exponent: Field[Complex | None] = Field(
-        "Where there is an `error_estimate`: exponents of the motions, 1/s, shape (k,), as those of `modes`; else None.",
+        "Where there is an `error_estimate`: exponents of the motions, 1/s, shape (k,), as in `Modes`; else None.",
         lambda s: None,
         part=True,
         fact=True,
     )
     motion_end: Field[float | None] = Field(
-        "Where there is an `error_estimate`: the time at which the prescribed motion is over, or 0, s; else None.",
+        "Where there is an `error_estimate`: the time at which the prescribed motion is over, s; else None.",
         lambda s: None,
         part=True,
         fact=True,
     )
     sway: Field[Floats | None] = Field(
-        "Where there is an `error_estimate`: the largest distance of each pin from below the support after `motion_end`, m, "
-        "shape (N + 1,), seen at 400 instants, to 1 %; the last is that of the support from its resting place. Motions with a "
-        "damping ratio below 0.05 count with their whole amplitudes, so that it may be too large. Infinite if the motion "
-        "grows. Else None.",
+        "Where there is an `error_estimate`: the largest distance of each pin from below the support after `motion_end`, "
+        "m, shape (N + 1,), seen at 400 instants, to 1 %; slightly damped motions count with their whole amplitudes. The "
+        "last is that of the support from its resting place. Else None.",
         lambda s: None,
         part=True,
         fact=True,
@@ -344,8 +335,7 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
         "`sway` of the free end, m.", lambda s: None if s.sway is None else float(s.sway[0])
     )
     energy: Field[Floats | None] = Field(
-        "Energy of each mode, J (weight times length), shape (k,); it is constant. That of a slow whirl is negative if "
-        "momentum keeps an inverted link from falling. None where there is an `error_estimate`.",
+        "Energy of each mode, J (weight times length), shape (k,). None where there is an `error_estimate`.",
         fact=True,
     )
     shape: Field[Numbers] = Field(
@@ -355,29 +345,26 @@ class Swing(Result, Moving, row="time", title="{summary}", notes=("{_remarks}",)
     amplitude: Field[Complex] = Field(
         "Coefficients, shape (k,), in offset = sum of ``shape * amplitude * exp(1j * angular_frequency * time)``; without "
         "momentum the real part of this sum. Where there is an `error_estimate`: those of the offsets from the resting "
-        "place after `motion_end`, with ``exp(exponent * (time - motion_end))``; NaN where damping is critical, so that "
-        "two motions cannot be told apart.",
+        "place after `motion_end`, with ``exp(exponent * (time - motion_end))``; NaN where damping is critical.",
         fact=True,
     )
     start: Field[Numbers | None] = Field(
-        "Offsets at time 0 of the pins of a chain or rig, shape (N + 1,): those given; pins without inertia move at once to "
-        "the positions where their neighbours pull them. None for a cord, and for momentum without `error_estimate`.",
+        "Offsets of the pins at time 0, shape (N + 1,): those given, but for pins without inertia, which their neighbours "
+        "pull into place. None for a cord, and for momentum without `error_estimate`.",
         fact=True,
     )
     projected: Field[bool] = Field("Whether `start` differs from the given offsets.", fact=True)
     energy_left_out: Field[float] = Field(
-        "Energy of the start that is not in the modes used: an upper bound, infinite if a link is inverted; for a cord an "
-        "estimate.",
+        "Energy of the start that is not in the modes used: an upper bound; for a cord an estimate.",
         fact=True,
     )
     truncation_error: Field[Floats] = Field(
-        "Bound of the effect of the modes not used on each offset at any time, m, shape (N + 1,): proved. For a cord an "
-        "estimate, shape (n,): the largest effect of modes k + 1 to 2 k, and of higher ones by extrapolation.",
+        "Proved bound of the effect of the modes not used on each offset at any time, m, shape (N + 1,). For a cord an "
+        "estimate, shape (n,).",
         fact=True,
     )
     summary: Field[str] = Field(
-        "The number of modes and those with most of the energy, in words; where there is an `error_estimate`, the number "
-        "and the sway.",
+        "The number of modes, and those with most of the energy or the sway, in words.",
         lambda s: s._words(),
     )
 

@@ -10,7 +10,7 @@ from typing import Any
 
 
 class Moving:
-    """A result that can be seen moving: modes, steady shapes, branches, responses, swings."""
+    """The base of results that can be shown moving."""
 
     __slots__ = ()
 
@@ -26,37 +26,34 @@ class Moving:
     ) -> None:
         """Write a film of the motion, or a page that plays it.
 
-        Modes and steady shapes turn about their axes, each at its own speed. A branch is gone through from its first
-        point to its last, a response at several speeds from the least to the greatest. A swing runs from the first to the
-        last of its times. Offsets of small amplitude have their own scale; steady shapes and branches are true to scale.
+        Modes and steady shapes turn about their axes, each at its own speed. A branch is shown from its first point to its
+        last, a response at several speeds from the least to the greatest, and a swing from the first of its times. Steady
+        shapes and branches are true to scale; offsets of small amplitude have a scale of their own, and between points,
+        speeds and times they may be interpolated.
 
         Parameters
         ----------
         path : path-like
-            Ends in ``.gif``, ``.mp4`` or ``.html``. The page is one file that shows the model of `to_glb` in three
-            dimensions, in any browser with WebGL 2 and without a network.
+            Ends in ``.gif``, ``.mp4`` or ``.html``. The page shows the model of `to_glb` in a browser with WebGL 2, without
+            a network.
         figures : iterable of int, optional
             Which of several: modes by their numbers; shapes and branches by their positions in the list, from 0. The first
             six if left out.
         time_scale : float, optional
-            Seconds of motion in one second of film: 1 is real time, 0.1 ten times slower. If left out, it is chosen so
-            that the fastest figure takes about 0.8 s or more for a turn; of a swing 1, unless it takes more than 10 s or
-            `duration` is given. The film says what it is.
+            Seconds of motion in one second of film: 1 is real time, 0.1 ten times slower. If left out, it is chosen, and
+            the film says what it is.
         duration : float, optional
-            Seconds of film. If left out: one turn of the slowest figure, at most 10 s; the whole swing, at most 10 s unless
-            `time_scale` is given; 12 s for a branch or a response at several speeds.
+            Seconds of film. If left out, it is chosen.
         frames_per_second : float
-            Frame rate of ``.gif`` and ``.mp4``, 0.1 to 1000. A GIF shows each
-            frame for whole hundredths of a second, at least 2.
+            Frame rate of ``.gif`` and ``.mp4``, 0.1 to 1000.
         progress : callable, optional
-            Called with the number of frames drawn and that of all frames; of a page, with numbers of figures.
+            Called with the number of frames drawn and that of all; of a page, with numbers of figures.
 
         Raises
         ------
         ValueError
-            If the path has another ending, a number is not positive and finite or the frame rate is out of its range,
-            `figures` names what is not there or is given for a single result, there is nothing to draw, the film has too
-            many frames, a figure of a page turns more than 5000 times, or a response does not have every pin.
+            If the path has another ending, a number is out of its range, `figures` names what is not there, there is
+            nothing to draw, the film is too long, or a response does not have every pin.
         TypeError
             If `path` is not a path or `progress` is not a function.
         ImportError
@@ -66,10 +63,7 @@ class Moving:
 
         Notes
         -----
-        Between two points of a branch, and two speeds of a response, offsets and heights are interpolated. So are offsets
-        between two times of a swing that has an `error_estimate`. Offsets of a response are drawn larger or smaller than they
-        are; the caption says by how much. A page has 600 KB for its viewer,
-        three.js, and four thirds of the size of the ``.glb`` file. On it, figures that only turn do so without end.
+        A page has 600 KB for its viewer, three.js, and four thirds of the size of the ``.glb`` file.
 
         Examples
         --------
@@ -114,8 +108,7 @@ class Moving:
         Returns
         -------
         object
-            The view, which a notebook shows if the call is the last line of a cell. It needs neither
-            network nor kernel; Jupyter shows it in trusted notebooks only.
+            The view, which a notebook shows if the call is the last line of a cell, without a network.
 
         Raises
         ------
@@ -144,9 +137,8 @@ class Moving:
     ) -> None:
         """Write the motion as a 3D model: a binary glTF file for viewers, presentations, Blender and ParaView.
 
-        Upwards is y, in metres. Each figure is a node with its axis and a node ``turning``; if it turns, its
-        rotation is an animation channel. In that node are the links, the support and its arm. Of at most 40 links there
-        are also bodies, rods of the same inertia and flywheels.
+        Upwards is y, in metres. Each figure is a node with its axis and a node ``turning``, which holds the links and the
+        support, with bodies and flywheels if there are few links.
 
         Parameters
         ----------
@@ -155,8 +147,7 @@ class Moving:
         figures : iterable of int, optional
             As in `animate`.
         time_scale : float, optional
-            As in `animate`; each node of a figure has it, gravity, the caption and, if it only turns, the angular speed
-            in its ``extras``.
+            As in `animate`; ``extras`` of the node of a figure have it, with gravity and the caption.
         duration : float, optional
             As in `animate`.
         progress : callable, optional
@@ -173,8 +164,7 @@ class Moving:
 
         Notes
         -----
-        Offsets are drawn as in `animate`. Thickness is for sight only. A chain of more than 400 links is drawn as
-        400 straight pieces.
+        Offsets are drawn as in `animate`. A chain of more than 400 links is drawn as 400 straight pieces.
 
         Examples
         --------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The parts of a system as tables: numbers of the whole, and one row for each link or point mass."""
+"""The parts of a system as tables."""
 
 from __future__ import annotations
 
@@ -42,10 +42,7 @@ class Fact(NamedTuple):
 
 
 def parts_of(system: Any) -> tuple[list[Fact], list[Column]]:
-    """Return the numbers of the whole system, and the columns of a table of its links or point masses, free end first.
-
-    Links have the numbers that they have in the caller's order.
-    """
+    """Return the numbers of the whole system, and the columns of a table of its links or point masses, free end first."""
     if not isinstance(system, System):  # a governor
         return [Fact(_words(name), value, UNITS.get(name, "")) for name, value in system._facts().items()], []
     base, by_mass = system._base, system.by_mass
@@ -104,7 +101,7 @@ def _particles(cord: Any) -> list[Column]:
 
 
 def _column(name: str, value: Any, size: int, unit: str) -> Column:
-    """A column of the table of links, from one number for all or one for each."""
+    """A column of the table of links."""
     heading = _words(name) + (f" ({unit})" if unit else "")
     return Column(name, np.broadcast_to(np.asarray(value), size), heading, unit=unit)
 

@@ -32,10 +32,9 @@ class Sensitivity(Result):
     """Derivatives of some numbers with respect to data of a system, all other data constant.
 
     ``s.mass`` and ``s["mass"]`` are arrays by a datum of the links, shape (R, N), links lowest first, or by another datum,
-    shape (R,), for R numbers: the conical heights of the modes of a chain or cord, the whirl speeds of the modes of a
-    rig, or inclinations, offsets and tensions of a steady shape. ``s.data`` lists the data. For a system given by
-    weight, data with "mass" in their names are weights. The derivatives of speeds follow from those of heights by
-    ``-angular_speed / (2 * conical_height)``.
+    shape (R,), for R numbers: the conical heights of the modes of a chain or cord, the whirl speeds of those of a rig, or
+    inclinations, offsets and tensions of a steady shape. For a system given by weight, data with "mass" in their names are
+    weights. The derivatives of speeds follow from those of heights by ``-angular_speed / (2 * conical_height)``.
 
     Notes
     -----
@@ -43,23 +42,21 @@ class Sensitivity(Result):
     datum                           with respect to what
     ==============================  =================================================================================
     ``mass``                        mass of a link; of a cord without its tip
-    ``length``                      distance between the pins at constant centre of gravity and radius of gyration: only
-                                    the lower pin moves, and a point mass becomes a body (0 for the lowest link); of a
-                                    cord, whose density keeps its proportions
+    ``length``                      distance between the pins at constant centre of gravity and radius of gyration, so
+                                    that a point mass becomes a body; of a cord, whose density keeps its proportions
     ``centroid``                    distance of the centre of gravity below the upper pin
-    ``radius_of_gyration``          radius of gyration; never negative for heights, 0 if the radius is 0
+    ``radius_of_gyration``          radius of gyration
     ``length_in_proportion``        a length with which centroid and radius of gyration grow in proportion, as for the
-                                    thread of a point mass or a rod; never negative for heights
+                                    thread of a point mass or a rod
     ``momentum`` ``spin``           angular momentum and spin of a flywheel (0 by spin if given by momentum)
     ``axial_moment``                moment of inertia of the turning parts of a link about its axis
     ``displaced_mass``              mass of fluid that a link displaces
-    ``added_mass``                  added mass of a link; 0 in a fluid that turns
+    ``added_mass``                  added mass of a link
     ``stiffness`` ``support_mass``  stiffness of the support, mass that moves with it; 0 if it is firm
     ``masses``                      point masses on a cord, shape (R, n), from the free end
-    ``tip_mass`` ``exponent``       tip of a cord; exponent of its density at constant mass (NaN for a function). Both are
-                                    0 for a cord held at both ends
-    ``tension`` ``span``            tension at the upper end (0 for a hanging cord); distance of the ends of a held shape.
-                                    For a held shape the one that was not given is NaN
+    ``tip_mass`` ``exponent``       tip of a cord; exponent of its density at constant mass (NaN for a function)
+    ``tension`` ``span``            tension at the upper end; distance of the ends. For a held shape the one that was not
+                                    given is NaN
     ``angular_speed``               speed of a steady shape
     ``support_radius``              radius of the support of a steady shape
     ``lower_radius`` ...            radius, stiffness and mass of the lower and upper end of what is held
@@ -68,13 +65,10 @@ class Sensitivity(Result):
     The position and size of the displaced fluid and the momentum of the flywheel are constant while a datum of a link
     changes.
 
-    Laws for what hangs: the relative derivatives of a height by masses add up to 0, those by lengths, centroids and radii of
-    gyration to 1, and those by lengths in proportion to 1; each of the last is the link's share of the potential energy.
     Method for modes: ``(y' dM y - height y' dK y) / (y' K y)`` in double-double, from the shape y alone, O(N) for each mode.
     Accuracy: of chains within `error_bound`, which is proved and in most cases 1 to 2 ulp; of rigs that of the shapes,
     1e-14 of the largest; of cords 1e-12 of the height divided by the datum. For shapes: implicit function theorem, O(N^3),
-    20 ms for 200 links; 1e-12 of the largest of a kind, or 1e-13 times `SteadyShape.condition` if that is more. At a fold
-    of a branch the exact derivatives are infinite.
+    20 ms for 200 links; 1e-12 of the largest of a kind, or 1e-13 times `SteadyShape.condition` if that is more.
 
     Examples
     --------
@@ -115,11 +109,11 @@ class Sensitivity(Result):
         "The arrays by datum. For a steady shape: a `Sensitivity` for each of ``inclination``, ``offset`` and ``tension``."
     )
     error_bound: Field[Sensitivity | None] = Field(
-        "Proved bounds of the absolute errors of the derivatives of the heights of a chain, in the same form; else None."
+        "Proved bounds of the absolute errors of the derivatives for a chain, in the same form; else None."
     )
     relative: Field[Sensitivity | None] = Field(
-        "Logarithmic derivatives ``(x / height) d(height)/dx`` of the heights of chains and cords, in the same form; those of "
-        "the speeds are -1/2 times these. Else None."
+        "Logarithmic derivatives ``(x / height) d(height)/dx`` for chains and cords, in the same form; those of the speeds "
+        "are -1/2 times these. Else None."
     )
 
     @property
@@ -161,7 +155,7 @@ class Sensitivity(Result):
 
 
 def _own(name: str, part: Sensitivity, links: int) -> list[Column]:
-    """Columns for a shape: by the speed and, for the free end or the middle pin, by each datum of the links."""
+    """Columns for a shape: by the speed and, for one pin, by each datum of the links."""
     columns = [Column(f"{name}_by_angular_speed", part.angular_speed[-links:], f"{name} by speed")]
     if name == "offset":
         pin = 0 if "support_radius" in part.value else links // 2  # both ends of what is held hardly move
@@ -191,7 +185,7 @@ class Uncertainty(Result, row="mode", title="Standard deviations"):
 
     __slots__ = ()
     number: Field[Whole] = Field(
-        "Mode numbers, shape (k,); for a rig with flywheels among those of the direction.", heading="mode", column="mode"
+        "Mode numbers, shape (k,), as in `Modes`.", heading="mode", column="mode"
     )
     direction: Field[Whole | None] = Field(
         "Direction of each mode of a rig, shape (k,): 1 forward, -1 backward; else None.", heading="direction"
@@ -200,8 +194,7 @@ class Uncertainty(Result, row="mode", title="Standard deviations"):
         "Standard deviation of each conical height, m, shape (k,).", heading="of the height", unit="m"
     )
     relative: Field[Floats] = Field(
-        "Standard deviation of each height divided by the height, shape (k,). For speeds, periods and frequencies it is half "
-        "as much.",
+        "Standard deviation of each height divided by the height, shape (k,); half as much for speeds.",
         heading="relative, of the height",
     )
     angular_speed: Field[Floats] = Field(
@@ -212,13 +205,11 @@ class Uncertainty(Result, row="mode", title="Standard deviations"):
     )
     period: Field[Floats] = Field("Standard deviation of each period, s, shape (k,).", heading="of the period", unit="s")
     share: Field[Sensitivity] = Field(
-        "Part of each variance that comes from each datum, in the form of a `Sensitivity`; the parts of a mode add up to "
-        "1, or to 0 if it is exact. With a covariance a part may be negative."
+        "Part of each variance that comes from each datum, in the form of a `Sensitivity`."
     )
     largest: Field[tuple[str, ...]] = Field(
         "For each mode the path of the datum that contributes most, such as ``'links[load].mass'``; empty if the mode is "
-        "exact. `tune` and `fit` accept these paths, but for ``'exponent'`` and for fluid or added mass that the rig "
-        "lacks; there the length of a point mass or rod moves its centre of gravity.",
+        "exact.",
     )
     _largest_part: Field[list[str]] = Field(
         "`largest`, or that there is nothing.",
@@ -228,7 +219,7 @@ class Uncertainty(Result, row="mode", title="Standard deviations"):
         left=True,
     )
     worst: Field[WorstCase | None] = Field(
-        "With ``worst=True``: bounds of the speeds over the box of tolerances, proved except for cords; else None.", joined=True
+        "With ``worst=True``: bounds of the speeds over the box of tolerances; else None.", joined=True
     )
 
     def _sheet(self, brief: bool = False) -> Sheet:
@@ -406,7 +397,7 @@ def _path(system: Any, name: str, link: int) -> str:
 
 
 def _checked(caller: str, modes: Modes, given: dict[str, Any], known: tuple[str, ...]) -> dict[str, Any]:
-    """Return the deviations by the names of their data; raise a ValueError for a datum that the system lacks."""
+    """Return the deviations by the names of their data; a ValueError for a datum that the system lacks."""
     system, kind = modes.system, modes.system._kind
     given, heavy = dict(given), "mass" if system.by_mass else "weight"
     if kind in ("chain", "rig") and ("mass" in given or "weight" in given):
@@ -471,7 +462,7 @@ def _data(system: Any, gravity: float) -> dict[str, Any]:
 
 
 def _deviations(caller: str, name: str, given: Any, data: Floats) -> Floats:
-    """Standard deviations (a number, or one for each datum), or their covariance; a ValueError if they are neither."""
+    """Standard deviations (a number, or one for each datum), or their covariance."""
     value, size = unpacked(given), data.size
     if isinstance(value, str):
         value = [value] * size
@@ -503,7 +494,7 @@ def _parts_of_data(caller: str, value: Any, data: Floats) -> list[Any]:
 
 
 def _spread(caller: str, given: Any, datum: float) -> Any:
-    """The text after +- in text such as "38 m +- 0.5 m", whose first number must be the datum; other values unchanged."""
+    """The text after +- in text such as "38 m +- 0.5 m"; other values unchanged."""
     parts = with_tolerance(given) if isinstance(given, str) else None
     if parts is None:
         return given

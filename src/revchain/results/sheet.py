@@ -33,13 +33,13 @@ class Column(NamedTuple):
     values : array or list
         Values; a list of arrays if rows have different lengths.
     heading : str
-        Heading in printed tables, with the unit; a column without a heading is not printed.
+        Heading in printed tables, with the unit; empty if the column is not printed.
     digits : int
         Number of significant digits in printed tables.
     axes : tuple of str
         Names of the axes after the first.
     shown : array, optional
-        Values to print instead, such as degrees or words.
+        Values to print instead.
     left : bool
         Whether printed tables align the column on the left.
     unit : str
@@ -94,11 +94,11 @@ class Sheet:
     notes : list of str
         Lines below the table.
     good : bool
-        False if something that could be found or proved was not; true for results that promise no proof.
+        False if something that could be found or proved was not.
     spread : bool
         Whether a long table prints evenly spaced rows instead of the first ones.
     named : callable, optional
-        Function of an axis, such as ``"pin"``, and a number along it that returns its name, such as ``"free end"``.
+        Function of an axis, such as ``"pin"``, and a number along it that returns a name, such as ``"free end"``.
     """
 
     row: str
@@ -115,7 +115,7 @@ class Sheet:
 
 
 def speed_columns(speed: Any, digits: int = 6) -> list[Column]:
-    """Columns of the speeds, which are given in rad/s, in rad/s and in rpm."""
+    """Columns of speeds, given in rad/s, in rad/s and rpm."""
     return [
         Column("angular_speed", speed, "speed (rad/s)", digits, unit="rad/s"),
         Column("rpm", speed * (30 / math.pi), "speed (rpm)", digits, unit="rpm"),
@@ -125,8 +125,7 @@ def speed_columns(speed: Any, digits: int = 6) -> list[Column]:
 def in_speed_unit(sheet: Sheet, unit: str | None) -> Sheet:
     """The sheet with its printed speeds in a unit of `units.SPEED_UNITS`; the same sheet for None.
 
-    Columns keep their names and values; only the headings and what is printed change. A column that would be printed
-    twice, or that has the speed in rpm beside, is not printed.
+    Columns keep their names and values. A column that would be printed twice is not printed.
     """
     if unit is None:
         return sheet
@@ -155,7 +154,7 @@ def _is_period(column: Column, speeds: Any) -> bool:
 
 
 def in_unit(speed: Any, unit: str) -> Any:
-    """A speed in rad/s, or an array of them, in a unit of `units.SPEED_UNITS`; periods have the sign of the speed."""
+    """A speed in rad/s in a unit of `units.SPEED_UNITS`; a period has the sign of the speed."""
     per_radian = SPEED_UNITS[unit][1]
     if unit != "s":
         return per_radian * speed
@@ -164,7 +163,7 @@ def in_unit(speed: Any, unit: str) -> Any:
 
 
 def speed_text(speed: float, unit: str | None, count: int = 6) -> str:
-    """A speed with the unit asked first and rad/s beside it; in rad/s and rpm if that or none was asked."""
+    """A speed as text in the unit asked and in rad/s, or in rad/s and rpm."""
     radians = f"{digits(speed, count)} rad/s"
     if unit in ("rpm", "Hz", "s"):
         return f"{'a period of ' if unit == 's' else ''}{digits(in_unit(speed, unit), count)} {unit} ({radians})"
@@ -172,12 +171,12 @@ def speed_text(speed: float, unit: str | None, count: int = 6) -> str:
 
 
 def digits(number: float, count: int) -> str:
-    """`number` as text with `count` significant digits, with zeros at the end."""
+    """`number` as text with `count` significant digits."""
     return f"{number:#.{count}g}".removesuffix(".")
 
 
 def cells(sheet: Sheet, most: int = MOST_ROWS) -> tuple[list[str], list[list[str]], list[str]]:
-    """Headings, the printed rows (at most so many) as text, and the lines below."""
+    """Headings, the printed rows as text, and the lines below."""
     size = len(sheet)
     rows: Any = range(size)
     if size > most:
@@ -194,7 +193,7 @@ def cells(sheet: Sheet, most: int = MOST_ROWS) -> tuple[list[str], list[list[str
 
 
 def as_text(sheet: Sheet) -> str:
-    """Return the table as text, in the form that a prompt shows."""
+    """Return the table as text."""
     headings, rows, notes = cells(sheet)
     padded, table = [], zip(headings, *rows, strict=True)
     for column in sheet.columns if rows else []:
@@ -206,7 +205,7 @@ def as_text(sheet: Sheet) -> str:
 
 
 def as_html(sheet: Sheet) -> str:
-    """Return the table as HTML, as a notebook shows it."""
+    """Return the table as HTML."""
     from html import escape
 
     headings, rows, notes = cells(sheet)
@@ -220,7 +219,7 @@ def as_html(sheet: Sheet) -> str:
 
 
 def as_dict(sheet: Sheet) -> dict[str, Any]:
-    """Return the facts as a dictionary, with a list of one dictionary for each row."""
+    """Return the facts and the list of rows as a dictionary."""
     return {**plain(sheet.facts), f"{sheet.row}s": as_rows(sheet)}
 
 
@@ -231,7 +230,7 @@ def as_rows(sheet: Sheet) -> list[dict[str, Any]]:
 
 
 def plain(value: Any) -> Any:
-    """`value` as Python's numbers, text, lists and dictionaries; a complex number as a pair."""
+    """`value` as plain Python data; a complex number as a pair."""
     if isinstance(value, dict):
         return {name: plain(item) for name, item in value.items()}
     if isinstance(value, np.ndarray | np.generic):
@@ -244,7 +243,7 @@ def plain(value: Any) -> Any:
 
 
 def finite(value: Any) -> Any:
-    """`value` without infinity and NaN, which JSON does not have: left out of dictionaries, None in lists."""
+    """`value` without infinity and NaN: left out of dictionaries, None in lists."""
     if isinstance(value, dict):
         return {name: kept for name, item in value.items() if (kept := finite(item)) is not None or item is None}
     if isinstance(value, list):
@@ -253,10 +252,9 @@ def finite(value: Any) -> Any:
 
 
 def in_columns(sheet: Sheet, most: int = MOST_COLUMNS) -> list[Column]:
-    """The columns, with one for each pin, link or motion of an array that has a number for each.
+    """The columns, with one for each pin, link or motion of an array that has at most `most` numbers in a row.
 
-    Complex numbers get a column for each part. Arrays along another axis, or with more than `most` numbers in a row, stay as
-    they are.
+    Complex numbers get a column for each part.
     """
     columns: list[Column] = []
     for column in sheet.columns:
@@ -281,10 +279,7 @@ def in_columns(sheet: Sheet, most: int = MOST_COLUMNS) -> list[Column]:
 
 
 def as_csv(sheet: Sheet) -> str:
-    """The table as CSV: one line for each row, with all digits of a double.
-
-    There is a column for each pin; other arrays are separated by blanks.
-    """
+    """The table as CSV: one line for each row, with all digits of a double."""
     import csv
     import io
 
@@ -298,7 +293,7 @@ def as_csv(sheet: Sheet) -> str:
 
 
 def as_dataframe(sheet: Sheet) -> Any:
-    """The table as a pandas data frame; facts are its ``attrs``; columns of arrays are left out."""
+    """The table as a pandas data frame without columns of arrays; facts are its ``attrs``."""
     pandas = require("pandas", "sweep", "to_dataframe")
     columns = {column.name: column.values for column in sheet.columns if not column.axes}
     table = pandas.DataFrame(columns)
@@ -309,7 +304,7 @@ def as_dataframe(sheet: Sheet) -> Any:
 
 
 def as_dataset(sheet: Sheet) -> Dataset:
-    """The table as an xarray data set: the first axis counts the rows; facts are variables (arrays) or attributes."""
+    """The table as an xarray data set; facts are variables (arrays) or attributes."""
     xarray = require("xarray", "netcdf", "to_xarray")
     variables = {
         column.name: (
@@ -330,7 +325,7 @@ def as_dataset(sheet: Sheet) -> Dataset:
 
 
 def _attribute(value: Any) -> str | int | float:
-    """A value as a netCDF attribute, which cannot be a bool or nested data."""
+    """A value as a netCDF attribute."""
     import json
 
     value = plain(value)

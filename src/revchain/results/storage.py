@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Results in files: .npz by numpy, .nc (netCDF 4) by xarray. Nothing is pickled, and no pickle is read."""
+"""Results in files: .npz by numpy, .nc (netCDF 4) by xarray, without pickles."""
 
 from __future__ import annotations
 
@@ -33,11 +33,11 @@ NOT_OURS = "is not a result that revchain saved, or was damaged since; compute a
 
 
 class NotRead(ValueError):
-    """The error for a file that is not read for a known reason; its message is complete."""
+    """The error for a file that is not read for a known reason."""
 
 
 class UnknownKind(ValueError):
-    """The error for a result of a class that this version does not have, by its name."""
+    """The error for a result of a class that this version does not have."""
 
 
 WRONG = (  # what the readers raise for a file that is damaged or that somebody else made
@@ -80,9 +80,8 @@ def load(path: str | os.PathLike[str]) -> Result:
     Raises
     ------
     ValueError
-        If the path has another ending, or the file does not contain a result or is damaged; checksums of ``.npz``
-        find changed numbers. If a later version saved the result and this version cannot read it; the message says
-        which version to install.
+        If the path has another ending, or the file does not contain a result, is damaged, or was saved by a later version
+        and cannot be read by this one.
     ImportError
         If a package for ``.nc`` is not installed; the message says how to install it.
     OSError
@@ -118,7 +117,7 @@ def load(path: str | os.PathLike[str]) -> Result:
 
 
 def _arrays(file: IO[bytes], size: int) -> dict[str, np.ndarray[Any, Any]]:
-    """The arrays of an .npz file; none that is pickled, and none larger than the file."""
+    """The arrays of an .npz file that holds no pickles and no compressed data."""
     with ZipFile(file) as entries:
         if any(entry.compress_type != ZIP_STORED or entry.file_size > size for entry in entries.infolist()):
             raise NotRead(COMPRESSED)
@@ -134,10 +133,7 @@ def _arrays(file: IO[bytes], size: int) -> dict[str, np.ndarray[Any, Any]]:
 
 
 def whole_array(entries: ZipFile, name: str) -> np.ndarray[Any, Any]:
-    """The array in an entry of an .npz file, which is read to its end: only there is its checksum compared.
-
-    `numpy.load` stops where the header of the array says that it ends, and so accepts a header that was damaged.
-    """
+    """The array in an entry of an .npz file, which is read to its end, where its checksum is compared."""
     with entries.open(name) as file:
         found: np.ndarray[Any, Any] = np.lib.format.read_array(file, allow_pickle=False)
         if file.read():
@@ -168,14 +164,14 @@ def _version() -> str:
 
 
 def _install(said: Mapping[str, Any]) -> str:
-    """Return the advice for a file that this version cannot read, from the version in its header."""
+    """Return the advice for a file that this version cannot read."""
     version = said.get("version")
     known = isinstance(version, str) and re.fullmatch(r"[\w.+-]{1,40}", version)
     return f"it was saved by revchain {version}: install that version or a later one" if known else "install a later version"
 
 
 def _packed(value: Any, name: str, arrays: dict[str, Any], made: dict[int, str]) -> Any:
-    """Return `value` as data for JSON. Its arrays go into `arrays` by name; each system is written once, named in `made`."""
+    """Return `value` as data for JSON. Arrays go into `arrays` by name; a system is written once, named in `made`."""
     if isinstance(value, np.ndarray):
         if value.dtype.kind != "c":
             arrays[name] = value
@@ -232,7 +228,7 @@ def _unpacked(value: Any, arrays: Mapping[str, Any], made: dict[str, Any]) -> An
 
 
 def _dataset(dataset: Any, header: str, arrays: dict[str, Any]) -> Any:
-    """The labelled data set with the exact data from which the result is restored."""
+    """The labelled data set with the data from which the result is restored."""
     dataset = dataset.assign_attrs({HEADER: header})
     for name in [name for name, column in dataset.variables.items() if column.dtype.kind == "c"]:
         dataset[f"{name}_real"], dataset[f"{name}_imaginary"] = dataset[name].real, dataset[name].imag
@@ -251,7 +247,7 @@ def _write_netcdf(dataset: Any, path: Path) -> None:
 
 
 def _netcdf(purpose: str) -> Any:
-    """The package xarray, after a check that its packages for .nc files are installed."""
+    """The package xarray; an ImportError if a package for .nc files is missing."""
     for module in ("h5py", "h5netcdf"):
         require(module, "netcdf", purpose)
     return require("xarray", "netcdf", purpose)

@@ -28,31 +28,26 @@ class Tuned(Result, row="value", title="Tuned: {summary}", good="status"):
 
     __slots__ = ()
     status: Field[str] = Field(
-        "``'found'``; ``'no_value'`` if no value in the range gives the speed; ``'undecided'`` if none was found but it is not "
-        "proved that there is none.", fact=True,
+        "``'found'``; ``'no_value'`` if no value in the range can give the speed; ``'undecided'`` if none was found.",
+        fact=True,
     )
     vary: Field[str] = Field("Path of the datum, as given.", fact=True)
     system: Field[Any] = Field("The system with the new `value`; None if none was found.")
     value: Field[float | None] = Field(
-        "The value nearest to the present one. In a search it is the nearest by ratio, except for a centroid, a "
-        "radius of gyration, a span, or if the present value is 0. For a weight of a chain it is the nearest by ratio, or "
-        "another within a few percent of it. None if none was found.", fact=True,
+        "The one of `values` nearest to the present value, mostly by ratio; None if there is none.", fact=True,
     )
     error_bound: Field[float | None] = Field(
-        "Proved bound of the absolute error of `value`; an estimate for cords, as the bounds of their modes are, and with "
-        "`top_tension`. None if no value was found, and for stiffness, momentum and spin of a rig, which are computed to "
-        "1e-15; the bound of the new rig's speed is then proved.", fact=True,
+        "Proved bound of the absolute error of `value`; an estimate for cords and with `top_tension`. None if no value was "
+        "found, and for stiffness, momentum and spin of a rig, which are computed to 1e-15.", fact=True,
     )
     values: Field[Floats] = Field("All values found in the range, ascending.", heading="value", column="value")
     complete: Field[bool] = Field(
-        "Whether `values` is known to have all values in the range. False for a weight of a chain: it has only the nearest "
-        "on either side of the present value; in a search, those between neighbours of 65 values.", fact=True,
+        "Whether `values` is known to have all values in the range.", fact=True,
     )
     present: Field[float] = Field("Present value of the datum.", fact=True)
     between: Field[Pair] = Field("Range of the search.", fact=True)
     reachable: Field[Pair | None] = Field(
-        "If no value was found: the smallest and the largest conical height seen in the range, at 33 or 65 values or more; "
-        "None for gravity, and for stiffness, momentum and spin of a rig.", fact=True,
+        "The smallest and the largest conical height seen in a range without a value, or None.", fact=True,
     )
     summary: Field[str] = Field("The result in words.", lambda t: t._words())
 

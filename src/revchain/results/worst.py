@@ -30,9 +30,9 @@ _COLUMNS = ("mass", "length", "centroid", "radius_of_gyration")
 class WorstCase(Result, row="mode", title="{_words}", notes=("{_remarks}",)):
     """Bounds of the speeds of k modes whose data lie anywhere in a box of tolerances.
 
-    No system in the box has a speed outside of `lowest_angular_speed` and `highest_angular_speed`. For chains and rigs
-    this is proved. For cords it is not: it rests on `Modes.error_bound`, which is checked by measurement. The speeds
-    `lowest_reached` and `highest_reached` belong to systems in the box, whose data are `lowest_at` and `highest_at`.
+    No system in the box has a speed outside of `lowest_angular_speed` and `highest_angular_speed`: proved for chains and
+    rigs, while for cords it rests on `Modes.error_bound`. The speeds `lowest_reached` and `highest_reached` belong to
+    systems in the box, whose data are `lowest_at` and `highest_at`.
 
     Examples
     --------
@@ -51,10 +51,10 @@ class WorstCase(Result, row="mode", title="{_words}", notes=("{_remarks}",)):
         "Lower bound of each speed over the box, rad/s, shape (k,).", heading="speed at least", unit="rad/s"
     )
     lowest_reached: Field[Floats] = Field(
-        "Lowest speed of a system in the box that was found, rad/s, shape (k,).", heading="lowest reached", unit="rad/s"
+        "Lowest speed found in the box, rad/s, shape (k,).", heading="lowest reached", unit="rad/s"
     )
     highest_reached: Field[Floats] = Field(
-        "Highest speed of a system in the box that was found, rad/s, shape (k,).", heading="highest reached", unit="rad/s"
+        "Highest speed found in the box, rad/s, shape (k,).", heading="highest reached", unit="rad/s"
     )
     highest_angular_speed: Field[Floats] = Field(
         "Upper bound of each speed over the box, rad/s, shape (k,).", heading="speed at most", unit="rad/s"
@@ -78,21 +78,18 @@ class WorstCase(Result, row="mode", title="{_words}", notes=("{_remarks}",)):
         "Upper bound of each conical height, m, shape (k,).", axes=(), unit="m"
     )
     gap: Field[Floats] = Field(
-        "Part of the range between the bounds of each speed that was not reached, shape (k,): 0 if the extremes are exact, 1 "
-        "if nothing is proved because the chain may tip over.",
+        "Part of the range between the bounds of each speed that was not reached, shape (k,); 1 if nothing is proved.",
         lambda w: _gap(w),
         heading="gap",
         digits=2,
     )
     lowest_at: Field[dict[str, Floats]] = Field(
-        "Data at which each lowest speed is reached, by path or keyword (weights by that of the mass): shape (k, N) for a "
-        "keyword for links, else (k,)."
+        "Data at which each lowest speed is reached, by path or keyword: shape (k, N) for a keyword for links, else (k,)."
     )
     highest_at: Field[dict[str, Floats]] = Field("Data at which each highest speed is reached, in the same form.")
     boxes: Field[Whole] = Field("Number of parts of the box that were examined for each mode, shape (k,).")
     status: Field[str] = Field(
-        "``'success'``, or ``'budget_spent'`` if a gap is above 5 % of the range after the largest number of boxes, or if "
-        "nothing is proved. The bounds hold in both cases.",
+        "``'success'``, or ``'budget_spent'`` if a gap is above 5 %. The bounds hold in both cases.",
         lambda w: "success" if not (w.gap > CLOSE).any() else "budget_spent",
         fact=True,
     )
@@ -170,7 +167,7 @@ def data_of(system: Any, gravity: float) -> Floats:
 
 
 def refuse_unbounded(caller: str, system: Any) -> None:
-    """Raise a ValueError for links whose forms are not those of a `Family`, and for more than 100 links."""
+    """Raise a ValueError for a system that has no proof."""
     reason = ""
     if system._kind == "rig":
         parts = {
@@ -189,7 +186,7 @@ def refuse_unbounded(caller: str, system: Any) -> None:
 
 
 class Moved(NamedTuple):
-    """A datum that was given by its path: the data that it moves, its nominal value, and its half-width."""
+    """A datum given by its path: the data that it moves, its nominal value, and its half-width."""
 
     name: str  # of data of links or of the support
     factor: Any  # not 0 for the links that follow it
@@ -200,10 +197,7 @@ class Moved(NamedTuple):
 def worst_of_modes(
     caller: str, modes: Modes, widths: dict[str, Floats], data: dict[str, Any], moved: dict[str, Moved]
 ) -> WorstCase:
-    """The worst case of modes.
-
-    `widths` has the half-widths of data by name, `data` the nominal values, and `moved` the data that were given by path.
-    """
+    """The worst case of modes: `widths` has half-widths by name, `data` nominal values, `moved` the data given by path."""
     system = modes.system
     refuse_unbounded(caller, system)
     for name, width in widths.items():
@@ -230,7 +224,7 @@ def worst_of_modes(
 
 
 def _without_lowest_pin(width: Floats, system: Any) -> Floats:
-    """The half-widths of the distances of pins, 0 for the lowest link: nothing hangs on its lower pin."""
+    """The half-widths of lengths, 0 for the lowest link: nothing hangs on its lower pin."""
     return np.where(np.arange(system.size) == 0, 0.0, width)
 
 
@@ -332,7 +326,7 @@ _OF_CORDS = ("length", "mass", "tip_mass", "tension")
 
 
 def _hung_cord(cord: Any, modes: Modes, ends: dict[str, tuple[float, float]]) -> list[tuple[Extreme, Extreme]]:
-    """Heights are proportional to the length, and depend on the ratio of tip to mass alone."""
+    """Heights are proportional to the length, and depend on the ratio of tip to mass."""
     (short, long), (light, heavy), tip = ends["length"], ends["mass"], ends["tip_mass"]
     least, most = tip[0] / heavy, tip[1] / light
     parts = np.geomspace(least, most, _PARTS + 1) if 0 < least < most else np.array([least])
@@ -362,7 +356,7 @@ def _hung_cord(cord: Any, modes: Modes, ends: dict[str, tuple[float, float]]) ->
 
 
 def _held_cord(held: Any, modes: Modes, ends: dict[str, tuple[float, float]]) -> list[tuple[Extreme, Extreme]]:
-    """Heights rise with mass and length, and fall with the tension: the extremes are at two corners."""
+    """Heights rise with mass and length and fall with the tension: the extremes are at two corners."""
     pairs = []
     for k, other in ((0, 1), (1, 0)):
         length, mass, tension = ends["length"][k], ends["mass"][k], ends["tension"][other]
