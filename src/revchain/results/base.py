@@ -292,7 +292,7 @@ class Result(Unchangeable):
         return as_dataframe(self._full())
 
     def to_xarray(self) -> Dataset:
-        """Return all data as a labelled data set.
+        """Return the data as a labelled data set.
 
         Returns
         -------

@@ -351,8 +351,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
     precision: Field[str] = Field("Arithmetic of the result, see `revchain.modes`.", lambda m: "double", part=True, fact=True)
     rtol: Field[float | None] = Field("Requested relative tolerance; None for full accuracy.")
     complete: Field[bool] = Field(
-        "Whether it is proved that these modes, and for a rig the other solutions, are all that were asked for. For "
-        "chains and cords it is false, too, if `rtol` was not met.",
+        "Whether these modes, and for a rig the other solutions, are known to be all that were asked for; false if `rtol` "
+        "was not met.",
         otherwise=lambda m: m.status == "success",
         fact=True,
     )
