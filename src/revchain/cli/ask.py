@@ -37,7 +37,7 @@ SceneFile = Annotated[
 Gravity = Annotated[
     str | None, typer.Option(metavar="G", help="Gravity in m/s^2 or with a unit; overrides that of the scene.")
 ]
-Units = Annotated[str, typer.Option(metavar="deg|rad", help="Unit of angles in tables; files have radians.")]
+Units = Annotated[str, typer.Option(metavar="deg|rad", help="Unit of angles in tables; data files have radians.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print no table and no progress bar.")]
 COMMON: dict[str, tuple[Any, Any]] = {
     "gravity": (Gravity, None),

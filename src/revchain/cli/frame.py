@@ -178,7 +178,7 @@ def common(
 
 Speed = Annotated[
     str | None,
-    typer.Option(metavar="rad/s|rpm|Hz|s", help="Unit of speeds in tables and pictures; files have rad/s."),
+    typer.Option(metavar="rad/s|rpm|Hz|s", help="Unit of speeds in tables and pictures; data files have rad/s."),
 ]
 
 

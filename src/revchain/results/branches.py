@@ -67,7 +67,7 @@ def _of_windows(doc: str, name: str, end: int, **column: Any) -> Field[Any]:
 class StabilityWindows(Results[StabilityWindow], row="window", title="{_title_words}"):
     """The windows of stability of a branch, in the order of its arc, or of all branches of a diagram.
 
-    `Branch.stability_windows` and `Branches.stability_windows` return it; it is a sequence of `StabilityWindow`.
+    `Branch.stability_windows` and `Branches.stability_windows` return this sequence of `StabilityWindow`.
 
     Examples
     --------
@@ -155,7 +155,8 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         fact=True,
     )
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", fact=True)
-    direction: Field[int] = Field("Direction of rotation, 1 or -1; only a rig with flywheels depends on it.", fact=True)
+    direction: Field[int] = Field(
+        "Direction of rotation, 1 or -1; the branches of rigs with flywheels depend on it.", fact=True)
     point: Field[Whole] = Field("Indices of the points.", lambda b: np.arange(len(b)), heading="point")
     angular_speed: Field[Floats] = Field(
         "Speed at each point, rad/s.", lambda b: np.sqrt(b.gravity / b.conical_height), heading="speed", unit="rad/s"
@@ -649,7 +650,8 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
         shown=lambda b: [each._ends_at for each in b],
     )
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", fact=True)
-    direction: Field[int] = Field("Direction of rotation, 1 or -1; only a rig with flywheels depends on it.", fact=True)
+    direction: Field[int] = Field(
+        "Direction of rotation, 1 or -1; the branches of rigs with flywheels depend on it.", fact=True)
     hanging_only: Field[bool] = Field(
         "Whether branches in other postures than that of the chain or rig were left out; false for cords and held systems.",
         fact=True,
