@@ -33,8 +33,8 @@ MEANING = {
 def cmake_prefix() -> str:
     """Folder of the C++ library in this package, for ``CMAKE_PREFIX_PATH``.
 
-    The package contains the C++ headers, the CMake configuration and the pkg-config files of the same version, and the
-    static libraries ``revchain::compiled`` and ``revchain::compiled_analytic`` for ``double``.
+    The folder has the C++ headers, the CMake configuration and pkg-config files, and the static libraries
+    ``revchain::compiled`` and ``revchain::compiled_analytic`` for ``double``.
 
     Returns
     -------
@@ -45,7 +45,7 @@ def cmake_prefix() -> str:
     Raises
     ------
     FileNotFoundError
-        This installation has no headers, for example because they are in a package of their own.
+        If this installation has no headers.
 
     Examples
     --------

@@ -37,7 +37,7 @@ SceneFile = Annotated[
 Gravity = Annotated[
     str | None, typer.Option(metavar="G", help="Gravity in m/s^2 or with a unit; overrides that of the scene.")
 ]
-Units = Annotated[str, typer.Option(metavar="deg|rad", help="Unit of angles in tables; files have radians.")]
+Units = Annotated[str, typer.Option(metavar="deg|rad", help="Unit of angles in tables; data files have radians.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print no table and no progress bar.")]
 COMMON: dict[str, tuple[Any, Any]] = {
     "gravity": (Gravity, None),
@@ -108,7 +108,7 @@ def run(
 
 
 def checked_wholes(scene: Path, report: Path | None, xlsx: Path | None) -> list[Path]:
-    """The files that hold all answers, after a check that they can be made: the report, the workbook."""
+    """The files that hold all answers, after a check that they can be made."""
     if report is not None:
         try:
             check_path("--report:", report)
@@ -223,7 +223,7 @@ def _meant(field: structs.FieldInfo, given: Any) -> Any:
 
 
 def _of_one_unit(field: structs.FieldInfo, parts: list[Any], between: str) -> list[Any]:
-    """The parts of a value; Stop if the last alone has a unit, which may be meant for the others too."""
+    """The parts of a value; Stop if only the last has a unit."""
     *others, last = parts
     bare = any(others) and all(isinstance(part, float | int) for part in others)
     if bare and isinstance(last, str) and re.match(PATTERN, last):
@@ -235,7 +235,6 @@ def _of_one_unit(field: structs.FieldInfo, parts: list[Any], between: str) -> li
 
 
 def _number(text: str) -> Any:
-    """The text as a number if it is one, else without blanks around it."""
     for kind in (int, float):
         with suppress(ValueError):
             return kind(text)
@@ -243,7 +242,6 @@ def _number(text: str) -> Any:
 
 
 def read_scene(path: Path, gravity: str | None, units: str, speed: str | None = None) -> Scene:
-    """The scene, with another gravity or unit of speeds if one is given."""
     if units not in ("deg", "rad"):
         raise Stop(f"--units: must be deg or rad, the unit of angles, got {units}", ExitCode.WRONG_USAGE)
     check_speed(speed)
@@ -266,7 +264,7 @@ def _answer(
     units: str,
     quiet: bool,
 ) -> Report:
-    """Answer one question and write the files. The outputs are opened first. `changed` are options, None without any."""
+    """Answer one question and write the files, which are opened first. `changed` are options, None without any."""
     with written_aside(*[file for file, _ in outputs]) as asides:
         found = answer_of(path, scene, question, changed, quiet)
         report = Report(scene, path.stem, question, found, units, None if changed is None else changed.get("count"))
@@ -275,7 +273,7 @@ def _answer(
 
 
 def answer_of(path: Path, scene: Scene, question: str, changed: dict[str, Any] | None, quiet: bool) -> Any:
-    """The result, with a bar while modes are found. Stop where the system has no answer.
+    """The result; Stop where the system has no answer.
 
     `changed` are the options given to the command of the question, which messages name; None for other commands.
     """
@@ -292,13 +290,11 @@ def answer_of(path: Path, scene: Scene, question: str, changed: dict[str, Any] |
 
 
 def _show(report: Report, outputs: list[tuple[Path, str]], heading: bool = True) -> None:
-    """Print the tables and the names of the written files."""
     report.print(Console(), heading)
     print(f"wrote {', '.join([str(file) for file, _ in outputs])}\n" if outputs else "", end="")
 
 
 def _line(problem: Problem, question: str, changed: dict[str, Any] | None) -> str:
-    """The sentence for a problem of an option or of the scene."""
     line, column, key, reason = problem
     if line:
         return f"line {line}, column {column}: {key}: {reason}"
@@ -352,7 +348,7 @@ _GOVERNOR = "ask for its equilibria: revchain equilibria {path}"
 
 
 def without_answer(question: str, system: System, path: Path) -> str:
-    """The reason why a question has no answer for a system, and what to ask or change instead; empty if it has one."""
+    """The reason why a question has no answer for a system, and what to do instead; empty if it has one."""
     if isinstance(system, SleeveGovernor):
         kind, instead = "governor", "" if question == "equilibria" else _GOVERNOR
     else:

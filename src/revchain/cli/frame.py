@@ -155,7 +155,6 @@ def fail(message: str, code: ExitCode) -> NoReturn:
 
 
 def show_version(wanted: bool) -> None:
-    """Print the version and exit."""
     if wanted:
         from .. import __version__
 
@@ -179,26 +178,23 @@ def common(
 
 Speed = Annotated[
     str | None,
-    typer.Option(metavar="rad/s|rpm|Hz|s", help="Unit of speeds in tables and pictures; files have rad/s."),
+    typer.Option(metavar="rad/s|rpm|Hz|s", help="Unit of speeds in tables and pictures; data files have rad/s."),
 ]
 
 
 def check_speed(speed: str | None) -> None:
-    """Check the unit of the option --speed."""
     if speed is not None and speed not in SPEED_UNITS:
         sentence = f"must be one of {', '.join(SPEED_UNITS)}, the unit of speeds in tables, got {speed}"
         raise Stop(f"--speed: {sentence}; give a speed by --angular-speed or --max-angular-speed", ExitCode.WRONG_USAGE)
 
 
 def checked_picture(plot: Path) -> None:
-    """Check that a picture can be drawn and written."""
     if plot.suffix.lower() not in PICTURES:
         raise Stop(f"--plot: {plot} must end in {', '.join(PICTURES)}", ExitCode.WRONG_USAGE)
     require("matplotlib", "plot", "--plot")
 
 
 def checked_workbook(path: Path) -> None:
-    """Check that a workbook can be written."""
     if path.suffix.lower() != ".xlsx":
         raise Stop(f"--xlsx: {path} must end in .xlsx", ExitCode.WRONG_USAGE)
     require("openpyxl", "excel", "--xlsx")

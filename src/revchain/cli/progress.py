@@ -28,7 +28,6 @@ Result = TypeVar("Result")
 
 
 def bar_of(what: str, console: Console, quiet: bool, *columns: ProgressColumn) -> Progress:
-    """A progress bar, shown only on a terminal."""
     shown = (TextColumn(what), BarColumn(), TextColumn("{task.percentage:3.0f} %"), TimeElapsedColumn(), *columns)
     return Progress(*shown, console=console, transient=True, disable=quiet or not console.is_terminal)
 

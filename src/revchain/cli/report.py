@@ -59,7 +59,7 @@ class Report:
         return tables
 
     def check(self, path: Path) -> None:
-        """Raise Stop with exit code 1 if something was not found, or not proved where a proof is required."""
+        """Raise Stop if something was not found, or not proved where a proof is required."""
         missing = getattr(self.found, "missing", ())
         if missing or not self.sheet.good:
             raise Stop(f"{path}: {shortfall(self.found)}", ExitCode.TOLERANCE_NOT_MET)
@@ -94,7 +94,7 @@ class Report:
         return msgspec.json.format(msgspec.json.encode(data), indent=2).decode() + "\n"
 
     def _numbers(self) -> dict[str, Any]:
-        """The system in numbers, for an answer that does not hold it; of a governor the arguments of its class."""
+        """The system in numbers, for an answer that does not hold it."""
         system = self.scene.system()
         if not isinstance(system, SleeveGovernor):
             return system.to_dict()
@@ -108,7 +108,6 @@ class Report:
         return replace(sheet, columns=columns)
 
     def print(self, console: Console, heading: bool = True) -> None:
-        """Print the system in words, the table with its heading, and further tables."""
         needed = [Console(width=1000).measure(grid).maximum for _, grid in self.tables if grid]
         console.width = max(console.width, NARROWEST, *needed)
         if heading:

@@ -97,7 +97,6 @@ def sweep(
 
 
 def _plan(study: Study, source: str) -> list[str]:
-    """Lines that describe what would be computed."""
     plan = study._plan(source)
     lines = [f"{source}: valid: {plan.points:,} points, {'one by one' if plan.links is None else 'in batches'}"]
     for axis in plan.axes:
@@ -115,7 +114,6 @@ def _plan(study: Study, source: str) -> list[str]:
 
 
 def _summary(found: Dataset) -> list[str]:
-    """Lines with the range of each column of numbers."""
     lines: list[tuple[str, ...]] = [("column", "least", "median", "largest")]
     unit = found.attrs.get("speed_unit")
     speeds = [str(key) for key, array in found.variables.items() if array.attrs.get("units") == "rad/s"] if unit else []
@@ -147,7 +145,6 @@ def _opposite(name: str) -> str:
 
 
 def _as_period(name: str) -> str:
-    """The name of a period, from that of its speed."""
     return _opposite(name).replace("angular_speed", "period")
 
 

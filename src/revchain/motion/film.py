@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A film: the position of every pin in every frame. Every format is written from one."""
+"""A film: the position of every pin in every frame."""
 
 from __future__ import annotations
 
@@ -39,12 +39,10 @@ class Figure:
         return turned
 
     def heights(self, frame: int) -> Floats:
-        """Return the heights of the pins in one frame, in metres."""
         row: Floats = self.height[0 if len(self.height) == 1 else frame]
         return row
 
     def caption(self, frame: int) -> str:
-        """Return the text below the figure in one frame."""
         return self.captions[0 if len(self.captions) == 1 else frame]
 
 
@@ -81,7 +79,7 @@ class Chart:
 
 @dataclass(frozen=True)
 class Film:
-    """Figures side by side, each about its own axis, with all that a file of the film says."""
+    """Figures side by side, each about its own axis."""
 
     system: str
     gravity: float
@@ -100,7 +98,6 @@ class Film:
 
     @property
     def frames(self) -> int:
-        """The number of frames."""
         return int(self.figures[0].phase.size)
 
     @property
@@ -110,7 +107,6 @@ class Film:
 
     @property
     def seconds(self) -> float:
-        """The length of the film in seconds."""
         return self.frames / self.frames_per_second
 
     @property

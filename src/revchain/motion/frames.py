@@ -221,14 +221,12 @@ def seen(offset: Complex | Floats, height: Any, across: float) -> tuple[Floats, 
 
 
 def _along(line: Any, link: Any, share: Floats) -> tuple[Floats, Floats]:
-    """Return points on links in the picture, at a share of their length below their upper pins."""
     x, y = line.get_data()
     down = x[link] - x[link + 1], y[link] - y[link + 1]
     return x[link + 1] + share * down[0], y[link + 1] + share * down[1]
 
 
 def _pieces(line: Any, which: Any) -> tuple[Floats, Floats]:
-    """Return the lines of some links, with gaps between them."""
     x, y = line.get_data()
     links = np.flatnonzero(which)
     none = np.full(links.size, np.nan)
@@ -237,7 +235,6 @@ def _pieces(line: Any, which: Any) -> tuple[Floats, Floats]:
 
 
 def write_gif(film: Film, path: Path, progress: Progress) -> None:
-    """Write a .gif file that plays in an endless loop."""
     image = require("PIL.Image", "animate", "a .gif film")
     drawing = Drawing(film)
     pictures = [image.fromarray(pixels) for pixels in drawing.frames(progress)]

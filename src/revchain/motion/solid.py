@@ -34,7 +34,6 @@ Surface = tuple[Floats32, Floats32, NDArray[np.uint16]]  # points, normals, face
 
 
 def write_glb(film: Film, path: Path, progress: Callable[[int, int], None]) -> None:
-    """Write one file that contains everything it needs."""
     path.write_bytes(glb_of(film, progress))
 
 
@@ -67,7 +66,6 @@ class _Solid:
     # ---- what is stored
 
     def _put(self, kind: str, **item: Any) -> int:
-        """Append an item to a list of the file and return its number."""
         held = self.lists.setdefault(kind, [])
         held.append(item)
         return len(held) - 1
@@ -78,7 +76,6 @@ class _Solid:
         return self.known[key]
 
     def _array(self, values: Any, kind: str, ends: bool = False, target: int | None = None) -> int:
-        """Store an array and return the number of its accessor."""
         self.blob.extend(b"\0" * (-len(self.blob) % 4))
         use = {} if target is None else {"target": target}
         view = self._put("bufferViews", buffer=0, byteOffset=len(self.blob), byteLength=values.nbytes, **use)
@@ -104,7 +101,6 @@ class _Solid:
         return self._once(colour, make)
 
     def _form(self, kind: str) -> dict[str, Any]:
-        """Return the accessors of a form of radius or width 1."""
         points, normals, faces = FORMS[kind]() if kind in FORMS else _lathed(forms()["profiles"][kind])
         attributes = {
             "POSITION": self._once((kind, 0), lambda: self._array(points, "VEC3", ends=True, target=VERTICES)),
@@ -114,8 +110,6 @@ class _Solid:
         return {"attributes": attributes, "indices": indices}
 
     def _mesh(self, kind: str, colour: str) -> int:
-        """Return the number of the mesh of a form in one colour."""
-
         def make() -> int:
             return self._put("meshes", name=kind, primitives=[self._form(kind) | {"material": self._material(colour)}])
 
@@ -351,20 +345,17 @@ def _lathed(points: list[list[float]]) -> Surface:
 
 
 def _torus(thick: float, radius: float = 1.0) -> Surface:
-    """A torus about the y axis."""
     angle = np.linspace(np.pi / 2, np.pi / 2 - 2 * np.pi, 9)
     out, up = np.cos(angle), np.sin(angle)
     return _revolved(np.column_stack([radius + thick * out, thick * up, out, up]), np.arange(8))
 
 
 def _upright(surface: Surface) -> Surface:
-    """A surface about the y axis turned to the z axis."""
     points, normals, faces = surface
     return points[:, [0, 2, 1]], normals[:, [0, 2, 1]], faces.reshape(-1, 3)[:, [0, 2, 1]].ravel()
 
 
 def _box() -> Surface:
-    """A box of width 1."""
     points, normals = [], []
     for axis in range(3):
         for side in (-1.0, 1.0):
@@ -378,13 +369,11 @@ def _box() -> Surface:
 
 
 def _cylinder() -> Surface:
-    """Return the surface of a closed cylinder of radius 1 and height 1."""
     rim = [[0, 0.5, 0, 1], [1, 0.5, 0, 1], [1, 0.5, 1, 0], [1, -0.5, 1, 0], [1, -0.5, 0, -1], [0, -0.5, 0, -1]]
     return _revolved(np.array(rim, float), np.array([0, 2, 4]))
 
 
 def _ball() -> Surface:
-    """Return the surface of a ball of radius 1."""
     down = np.linspace(0, np.pi, ROWS + 1)
     return _revolved(np.column_stack([np.sin(down), np.cos(down)] * 2), np.arange(ROWS))
 

@@ -37,7 +37,7 @@ Turning = tuple[str, Any, Floats, float, float]  # label, offsets, heights, spee
 
 @dataclass(frozen=True)
 class Choices:
-    """The choices of the caller for a film: figures, time scale, length and frame rate."""
+    """The choices of the caller for a film."""
 
     caller: str
     frames_per_second: float = 25.0
@@ -51,12 +51,11 @@ class Choices:
                 object.__setattr__(self, name, one_positive(self.caller, name, value))
 
     def only_one(self) -> None:
-        """Refuse a choice of figures where the result is a single one."""
         if self.figures is not None:
             raise ValueError(f"{self.caller}: figures is for several modes, shapes or branches; leave it out here")
 
     def among(self, found: Any, what: str, first: int = 0) -> list[tuple[str, Any]]:
-        """The chosen items of a list, each with a label that counts from `first`; a single result without a label."""
+        """The chosen items of a list, each with a label that counts from `first`."""
         if not isinstance(found, Listed):
             self.only_one()
             return [("", found)]
@@ -174,13 +173,12 @@ def _(found: Branch | Branches, choices: Choices) -> Film:
 
 
 def _stages(count: int, folds: Any) -> Any:
-    """Indices of the points of a branch that are drawn: its ends, its folds, and others evenly spaced."""
+    """Indices of the points of a branch that are drawn, with its folds."""
     even = np.linspace(0, count - 1, min(count, MOST_STAGES)).round().astype(int)
     return np.unique(np.concatenate([even, np.asarray(folds, int)]))
 
 
 def _shape_or_none(branch: Any, point: int) -> Any:
-    """The shape at a point of a branch, or None where the chain is straight."""
     try:
         return branch.shape(point)
     except ValueError:
@@ -231,7 +229,7 @@ def _swept(
     curves: list[Floats],
     progress: str,
 ) -> Film:
-    """Figures that go through stages, all from their first to their last, turning as fast as each stage does."""
+    """Figures that go through stages, turning as fast as each stage does."""
     frames = choices.frames(FOR_A_SWEEP if choices.duration is None else choices.duration)
     fastest = max(float(np.abs(each.speed).max()) for each in stages)
     time_scale = choices.time_scale or TURN / fastest / FASTEST_TURN
@@ -306,7 +304,7 @@ def _(found: Swing, choices: Choices) -> Film:
 
 
 def _between_moments(found: Swing, time: Floats) -> Complex:
-    """Offsets between the times of a swing: cubics with its offsets and velocities at both ends (Hermite)."""
+    """Offsets between the times of a swing, by Hermite's cubics."""
     when, first = np.unique(found.time, return_index=True)
     offset, velocity = found.offset[first], found.velocity[first]
     after = np.clip(np.searchsorted(when, time, side="right"), 1, when.size - 1)
@@ -322,7 +320,7 @@ def _between_moments(found: Swing, time: Floats) -> Complex:
 
 
 def _reach_of_small(height: Floats, count: int) -> float:
-    """The distance from the axis at which offsets of small amplitude are drawn, for so many figures side by side."""
+    """The distance from the axis at which offsets of small amplitude are drawn."""
     return float(np.ptp(height)) * min(0.25, 0.9 / (count + 1))
 
 
@@ -383,7 +381,7 @@ def _bodies(system: Any, base: Any) -> Bodies:
 
 
 def _rings(system: Any, base: Any) -> Any:
-    """Return, for each link, whether it is one of many uniform rods, which are drawn as the rings of a chain."""
+    """Whether each link is one of many uniform rods, which are drawn as rings."""
     if system._is_cord:
         return False
     rod = are_rods(base.length, base.centroid, base.radius_of_gyration)

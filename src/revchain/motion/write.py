@@ -27,7 +27,6 @@ Progress = Callable[[int, int], None]
 
 
 def write_page(film: Film, path: Path, progress: Progress) -> None:
-    """Write the page of a film, which needs no other file and no network."""
     path.write_text(page_of(film, progress), encoding="utf-8")
 
 
@@ -47,7 +46,6 @@ METHODS = {ending: method for method, writers in WRITERS.items() for ending in w
 
 
 def require_for(ending: str) -> None:
-    """Refuse an ending whose packages are missing, before anything is computed."""
     for module in {".gif": ("matplotlib", "PIL"), ".mp4": ("matplotlib", "imageio_ffmpeg")}.get(ending, ()):
         require(module, "animate", f"a {ending} film")
 
@@ -61,7 +59,6 @@ def write_film(
     progress: Progress | None = None,
     **chosen: Any,
 ) -> None:
-    """Write a result to a path; see `Moving`, whose methods `animate` and `to_glb` pass on what the caller chose."""
     caller, writers = f"revchain.{type(result).__name__}.{method}", WRITERS[method]
     ending = os.path.splitext(file_path(caller, "path", path))[1].lower()
     if ending not in writers:
@@ -94,7 +91,6 @@ class View:
 
 
 def show_film(result: Any, height: float, **chosen: Any) -> View:
-    """Return the page of a result as a view; see `Moving.show`."""
     caller = f"revchain.{type(result).__name__}.show"
     tall = one_positive(caller, "height", height)
     return View(page_of(_film(result, Choices(caller, **chosen), is_solid=True), _silent), tall)

@@ -45,12 +45,11 @@ class StabilityWindow(Result, row="end", title="Stability window: {verdict}"):
     end: Field[tuple[str, str]] = Field("Names of the ends.", lambda w: ("start", "end"), heading="at")
     verdict: Field[str] = Field("``'minimum'``, ``'spectrally stable'``, ``'unstable'`` or ``'undecided'``.", fact=True)
     change: Field[str] = Field(
-        "What happens at the end of the window. ``'fold'``: two shapes meet there. ``'Hamiltonian Hopf'``: two "
-        "frequencies of small motion meet and leave the imaginary axis, or return to it (with dashpots ``'Hopf'``: one "
-        "pair of exponents crosses it). ``'momentum fold'``: the angular momentum, which is constant in the free frame, has "
-        "an extremum along the branch. ``'zero exponent'``: an exponent passes 0 elsewhere; in the free frame shapes that "
-        "leave the plane may branch off, which are not followed. ``'end'``: the branch ends. ``'undecided'``: none of these "
-        "could be established.",
+        "What happens at the end of the window. ``'fold'``: two shapes meet. ``'Hamiltonian Hopf'``: two frequencies of "
+        "small motion meet, and growing oscillations appear or vanish (with dashpots ``'Hopf'``: one pair of exponents "
+        "crosses the imaginary axis). ``'momentum fold'``: the angular momentum has an extremum along the branch. ``'zero "
+        "exponent'``: an exponent passes 0 elsewhere; in the free frame shapes that leave the plane may branch off. "
+        "``'end'``: the branch ends. ``'undecided'``: none of these could be established.",
         fact=True,
     )
     angular_speed: Field[Pair] = Field(
@@ -68,7 +67,7 @@ def _of_windows(doc: str, name: str, end: int, **column: Any) -> Field[Any]:
 class StabilityWindows(Results[StabilityWindow], row="window", title="{_title_words}"):
     """The windows of stability of a branch, in the order of its arc, or of all branches of a diagram.
 
-    `Branch.stability_windows` and `Branches.stability_windows` return it; it is a sequence of `StabilityWindow`.
+    `Branch.stability_windows` and `Branches.stability_windows` return this sequence of `StabilityWindow`.
 
     Examples
     --------
@@ -85,10 +84,10 @@ class StabilityWindows(Results[StabilityWindow], row="window", title="{_title_wo
     __slots__ = ()
     frame: Field[str] = Field("``'free'`` or ``'driven'``, as in `SteadyShape.stability`.", fact=True)
     branch: Field[Whole | None] = Field(
-        "Number of the branch of each window; None for the windows of one branch.", heading="branch"
+        "Number of the branch of each window; None if all are of one branch.", heading="branch"
     )
     mode: Field[tuple[str, ...] | None] = Field(
-        "`Branches.mode` of the branch of each window; None for the windows of one branch.", heading="mode"
+        "`Branches.mode` of the branch of each window; None if all are of one branch.", heading="mode"
     )
     verdict: Field[tuple[str, ...]] = Field(
         "Verdict of each window.", lambda w: tuple(each.verdict for each in w), heading="verdict"
@@ -113,8 +112,8 @@ class StabilityWindows(Results[StabilityWindow], row="window", title="{_title_wo
 class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spread=True):
     """A branch of steady shapes, point by point; returned by `branch` and `branches`.
 
-    Arrays other than `folds` have one entry for each point. The branch of a chain, a rig or a hanging cord is followed
-    along its arc from its start. That of a held system goes from the greatest speed to lower speeds and, after a fold, back.
+    Arrays other than `folds` have one entry for each point. A branch is followed along its arc from its start; that of a
+    held system goes from the greatest speed to lower speeds and, after a fold, back.
 
     Examples
     --------
@@ -133,44 +132,40 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
     __slots__ = ()
     system: Field[Any] = Field("The chain, rig, cord, or held chain or cord.")
     mode: Field[int | None] = Field(
-        "Number of the mode at whose critical speed the branch leaves the vertical; 1 for a branch from rest; None "
-        "for an isolated branch. For a held system its half waves at the greatest speed. With an end off the axis the "
-        "branch is found from a nearly straight shape of k half waves with both ends on the axis, without gravity. The "
-        "number is then ``2 * k - 1`` if the lowest link of that shape leads outwards, ``2 * k`` if inwards.",
+        "Number of the mode at whose critical speed the branch leaves the vertical; 1 for a branch from rest; None for an "
+        "isolated branch. For a held system its half waves at the greatest speed. With an end off the axis it is ``2 * k - "
+        "1`` or ``2 * k``: the branch is found from a nearly straight shape of k half waves whose lowest link leads "
+        "outwards or inwards.",
         lambda b: b._found().mode or None,
         part=True,
         fact=True,
     )
     birth: Field[str] = Field(
-        "Start of the branch. ``'vertical'``: it leaves the straight chain or cord at a critical speed. ``'rest'``: "
-        "it starts at rest, with the support off the axis. ``'fold'``: it is isolated, with two shapes from the speed of "
-        "a fold upwards, or closed; on a spring it may have no fold. Not for held systems.",
+        "Start of the branch. ``'vertical'``: it leaves the straight chain or cord at a critical speed. ``'rest'``: it "
+        "starts at rest, with the support off the axis. ``'fold'``: it is isolated. Not for held systems.",
         fact=True,
     )
     end: Field[str] = Field(
-        "Reason why the branch ends. ``'height'``: the given conical height is reached. ``'closed'``: the branch is "
-        "back at its start. ``'vertical'``: it is back at the straight chain. ``'budget'``: `max_points` (of a held "
-        "system 3000 steps) are done. ``'stuck'``: no step passed every check. ``'slow'``: it approaches rest. "
-        "``'slack'``: a link becomes slack, or with flywheels horizontal, or turns over (of a held system near the last "
-        "speed). ``'loose'``: the spring at the support no longer holds the "
-        "chain. ``'folded'``: a held cord hangs folded along the axis. ``'speed'``: the greatest speed is reached "
-        "again. ``'rest'``: with ends off the axis the held chain hangs as at rest, at a conical height of more than "
-        "10,000 lengths.",
+        "Reason why the branch ends. ``'height'``: the given conical height is reached. ``'closed'``: the branch is back "
+        "at its start. ``'vertical'``: it is back at the straight chain. ``'budget'``: the limit of points or steps is "
+        "reached. ``'stuck'``: no step passed every check. ``'slow'``: it approaches rest. ``'slack'``: a link becomes "
+        "slack, or with flywheels horizontal, or turns over. ``'loose'``: the spring at the support no longer holds the "
+        "chain. ``'folded'``: a held cord hangs folded along the axis. ``'speed'``: the greatest speed is reached again. "
+        "``'rest'``: a held chain with ends off the axis hangs as at rest.",
         fact=True,
     )
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", fact=True)
-    direction: Field[int] = Field("Direction of rotation, 1 or -1; only a rig with flywheels depends on it.", fact=True)
+    direction: Field[int] = Field(
+        "Direction of rotation, 1 or -1; the branches of rigs with flywheels depend on it.", fact=True)
     point: Field[Whole] = Field("Indices of the points.", lambda b: np.arange(len(b)), heading="point")
     angular_speed: Field[Floats] = Field(
         "Speed at each point, rad/s.", lambda b: np.sqrt(b.gravity / b.conical_height), heading="speed", unit="rad/s"
     )
     conical_height: Field[Floats] = Field("Conical height of the speed, m.", heading="height", unit="m")
     lowest_inclination: Field[Floats] = Field(
-        "Inclination of the lowest link, or of the lower end of a cord, to the downward vertical (of held systems to "
-        "the upward one), rad. Of two mirror images the branch follows the one that agrees with the mode shape of "
-        "`modes`; an isolated branch follows the one that starts with the free end at a positive offset. The link is "
-        "vertical where the sign changes. With the support off the axis there are no mirror images; outwards is "
-        "positive.",
+        "Inclination of the lowest link, or of the lower end of a cord, to the downward vertical (of held systems to the "
+        "upward one), rad. Of two mirror images the branch is the one that agrees with the mode shape of `modes` or, if "
+        "isolated, starts with the free end at a positive offset.",
         heading="lowest link",
         unit="rad",
     )
@@ -189,8 +184,7 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         heading="top tension",
     )
     half_waves: Field[Whole] = Field(
-        "Sign changes of the offsets, that of the support included, plus one, as in `SteadyShape`; for a held system about "
-        "the line between the ends.",
+        "`SteadyShape.half_waves` at each point.",
         lambda b: b._half_waves(),
         part=True,
         heading="half waves",
@@ -199,8 +193,7 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         "Whether each point is a fold.", lambda b: np.isin(b.point, b.folds), heading="fold", column="fold"
     )
     moment_of_inertia: Field[Floats] = Field(
-        "Moment of inertia about the axis, as `SteadyShape.moment_of_inertia`, kg m^2; for a system given by weight, in "
-        "weight times length squared.",
+        "Moment of inertia about the axis, kg m^2, or weight times length squared.",
         axes=(),
     )
     effective_energy: Field[Floats] = Field(
@@ -210,10 +203,8 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         axes=(),
     )
     arc: Field[Floats] = Field(
-        "Arc length of the branch from its first point, dimensionless: the root of the mean square of the links' ``d "
-        "arsinh(tan(inclination))`` (of a cord: that of its free end) plus the square of ``d log(conical_height)``, "
-        "summed up. A support that yields counts as one more link, its offset over the total length as the tangent. Not for "
-        "held systems.",
+        "Arc length of the branch from its first point, dimensionless, measured in the links' ``arsinh(tan(inclination))`` "
+        "(of a cord: that of its free end) and in ``log(conical_height)``. Not for held systems.",
         axes=(),
     )
     inclination: Field[Any] = Field(
@@ -224,8 +215,7 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
     )
     verdict: Field[tuple[str, ...]] = Field(
         "Verdict of `SteadyShape.stability` at each point, in the free frame; empty for the straight chain. Not for cords. "
-        "Files and data frames have this column if it takes less than about a second (points times links squared at most "
-        "150,000), or was computed before.",
+        "Files and data frames have this column if it takes less than about a second or was computed before.",
         lambda b: b._verdicts(),
     )
     folds: Field[Whole] = Field(
@@ -249,15 +239,13 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         Returns
         -------
         SteadyShape
-            The shape of a chain or rig, computed in double-double. Its ``error_bound`` is proved, except at a fold,
-            where it is an estimate, as it is for cords (at a fold 1e-7, because of the position of the fold on the arc)
-            and for held systems; for a held chain `steady_shapes` at its speed proves one.
+            The shape. Its ``error_bound`` is proved for chains and rigs, except at a fold; for cords and held systems it is
+            an estimate.
 
         Raises
         ------
         ValueError
-            If there is no such point; if it is the straight chain, at which the branch of a mode starts; if its shape does
-            not balance in double-double.
+            If there is no such point, or its shape is straight, as where the branch of a mode starts, or does not balance.
 
         Examples
         --------
@@ -291,16 +279,13 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         conical_height : float
             Conical height of the speed, m, positive, instead of `angular_speed`.
         gravity : float, optional
-            Acceleration of gravity, m/s^2; that of the branch if left out. For a rig it must be that of the branch,
-            because the effect of springs and wheels depends on it.
+            Acceleration of gravity, m/s^2; that of the branch if left out. For a rig it must be that of the branch.
 
         Returns
         -------
         tuple of SteadyShape
             The shapes in the order of the arc; none if the speed is outside the range of the branch. Within 1e-9 of the
-            speed of a fold its two neighbouring shapes may be missing. At the speed of the fold, to rounding, its shape
-            is returned if no other has this speed. The straight shape is not among them; where the branch leaves the
-            vertical a nearly straight one may be, by rounding.
+            speed of a fold its two neighbouring shapes may be missing.
 
         Raises
         ------
@@ -331,7 +316,7 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         return tuple(shape_made(found, self.system, g, self.direction) for found in shapes)
 
     def _at_point(self, k: int, gravity: float) -> tuple[SteadyShape, ...]:
-        """The shape at a point, such as a fold, whose speed is given within rounding; none for the straight chain."""
+        """The shape at a point whose speed is given within rounding; none for the straight chain."""
         if k == 0 and self.birth == "vertical":
             return ()
         proved = {"proved": False} if self.is_fold[k] else {}
@@ -351,29 +336,24 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         samples : int, optional
             Number of places to examine between two points of the branch, with one end.
         speed : {"rad/s", "rpm", "Hz", "s"}, optional
-            Unit in which the table prints speeds (``"s"``: periods); that of the question, or rad/s, if left out. The fields
-            and files are in rad/s.
+            Unit in which the table prints speeds (``"s"``: periods); that of the question, or rad/s, if left out.
 
         Returns
         -------
         StabilityWindows
-            The windows in the order of the arc, a sequence that prints as a table. They cover the branch; near the
-            vertical one more shape is examined, a tenth of the way to the next point. Unless undecided, they begin anew at
-            folds, so that the speed rises or falls along each. Edges are located by bisection; `StabilityWindow.change`
-            says what happens there. A window shorter than the distance between two places can be missed.
+            The windows in the order of the arc; unless undecided, they begin anew at folds. A window shorter than the
+            distance between two places can be missed.
 
         Raises
         ------
         ValueError
-            If `frame` or `speed` is another word, `tolerance` is not positive or `samples` is below 1; if
-            `SteadyShape.stability` refuses the rig; for cords and held systems, whose shapes have their stability:
-            ``branch.shape(k).stability()``.
+            If an argument is out of its range, `SteadyShape.stability` refuses the rig, or the system is a cord or held: ask
+            its shapes, ``branch.shape(k).stability()``.
 
         Notes
         -----
-        Cost: 8 verdicts for each point of the branch, and some 20 for each edge, where they can take longer. A
-        verdict takes 0.05 ms for five links, 0.4 ms for twenty, 1.5 ms for forty. With ``samples=1`` it is one for each
-        point; edges take as many.
+        Cost: `samples` verdicts for each point of the branch, and some 20 for each edge. A verdict takes 0.05 ms for five
+        links, 0.4 ms for twenty, 1.5 ms for forty.
 
         Examples
         --------
@@ -392,7 +372,6 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         return asked_in(unit, StabilityWindows._made(None, _items=tuple(found), **given))
 
     def _listed_windows(self, caller: str, frame: str, tolerance: float, samples: int) -> list[StabilityWindow]:
-        """The windows of stability."""
         driven = is_driven(caller, frame)
         wide = one_positive(caller, "tolerance", tolerance)
         places = min(count(caller, "samples", samples), 10**6)
@@ -414,7 +393,7 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         ]
 
     def _from_vertical(self, found: list[_Part], frame: str) -> list[_Part]:
-        """The windows, the first of which begins at the vertical unless the verdict is another one near it."""
+        """The windows; the first begins at the vertical unless the verdict near it is another."""
         if not found or self.birth != "vertical" or len(self) < 2:
             return found
         s0, s1, h0, h1, verdict = found[0]
@@ -428,7 +407,6 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         return [(float(self.arc[0]), s1, top, h1, verdict), *found[1:]]
 
     def _split_at_folds(self, found: list[_Part], tolerance: float) -> list[_Part]:
-        """The windows, which are split at folds, so that the speed rises or falls all along each."""
         windows = []
         for s0, s1, h0, h1, verdict in found:
             for k in self.folds:
@@ -460,7 +438,7 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         return [*changes, *["end"] * (len(windows) > 0)]
 
     def _growth(self, arc: float, height: float, ahead: float, frame: str) -> str:
-        """How the fastest disturbance grows just beyond an edge, at a height towards which the shape is unstable."""
+        """How the fastest disturbance grows just beyond an edge."""
         inclination = np.array([np.interp(arc, self.arc, each) for each in self.inclination.T])
 
         def shape_at(h: float) -> Any:
@@ -508,7 +486,6 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         return tuple(parts)
 
     def _verdicts(self) -> tuple[str, ...]:
-        """The verdict at each point."""
         found: list[str] = []
         for k in range(len(self)):
             near = {verdict for low, high, verdict in self._windows if low - 1e-3 <= k <= high + 1e-3}
@@ -528,7 +505,6 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
 
     @property
     def _is_of_links(self) -> bool:
-        """Whether it is the branch of a chain or a rig, whose states lie on an arc."""
         return self._shapes is None and isinstance(self._found(), _core.Branch)
 
     @property
@@ -546,8 +522,8 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
         Returns
         -------
         pandas.DataFrame
-            The table, in SI units. Columns such as ``inclination_link_0`` are in rad; the name of a link, if it has one,
-            is added: ``inclination_link_0_load``.
+            The table, in SI units, with columns such as ``inclination_link_0``, or ``inclination_link_0_load`` if the link
+            has a name.
 
         Raises
         ------
@@ -622,14 +598,10 @@ class Branch(Result, Moving, row="point", title="Branch {_name}: {_extent}", spr
 class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", good="complete"):
     """The branches found down to one conical height; returned by `branches`.
 
-    The branches of the modes come first, slowest first; with the support off the axis it is the branch from rest. The
-    isolated branches follow. With ``hanging_only=False`` those of the other postures come after
-    them, posture by posture. Those of a held system are ordered by half waves.
+    The branches of the modes, or the branch from rest, come first, then isolated ones, then those of other postures. Those
+    of a held system are ordered by half waves.
 
-    The printed table has a row for each branch; data frames, dictionaries and CSV files have one for each point, with its
-    verdict if `Branch.verdict` allows. A verdict can change twice between two points: `stability_windows` has the windows,
-    which no such file holds. The command line reports a failed search if `complete` is false; with ``hanging_only=False``
-    it is enough that the branches of the own posture are proved complete and the others are `consistent`.
+    The printed table has a row for each branch; data frames, dictionaries and CSV files have one for each point.
 
     Examples
     --------
@@ -648,8 +620,8 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
         heading="mode",
     )
     inverted: Field[tuple[str, ...] | None] = Field(
-        "Names or numbers of the links that are above their upper pins along each branch, as text; None if `hanging_only`, "
-        "for cords and for held systems.",
+        "Links that are above their upper pins along each branch, as text; None if `hanging_only`, for cords and for held "
+        "systems.",
         lambda b: None if b.hanging_only or b.system._is_cord or b.system._is_held else tuple(_inverted(each.system) for each in b),
         heading="above their pins",
     )
@@ -678,22 +650,21 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
         shown=lambda b: [each._ends_at for each in b],
     )
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", fact=True)
-    direction: Field[int] = Field("Direction of rotation, 1 or -1; only a rig with flywheels depends on it.", fact=True)
+    direction: Field[int] = Field(
+        "Direction of rotation, 1 or -1; the branches of rigs with flywheels depend on it.", fact=True)
     hanging_only: Field[bool] = Field(
-        "Whether branches with a link above its upper pin were left out (of a rig: with other links inverted than those "
-        "of the rig); false for cords and held systems.",
+        "Whether branches in other postures than that of the chain or rig were left out; false for cords and held systems.",
         fact=True,
     )
     consistent: Field[bool] = Field(
-        "Whether at each of the speeds `looked_at` the list is proved (of a cord: scanned) and each of its shapes "
-        "lies on exactly one branch, and no branch stops early (`loose` does not). Held systems have neither this nor `complete`, `remark` and "
+        "Whether at each of the speeds `looked_at` the list is proved (of a cord: scanned) and each of its shapes lies on "
+        "exactly one branch, and no branch stops early. Held systems have neither this nor `complete`, `remark` and "
         "`looked_at`.",
         fact=True,
     )
     complete: Field[bool] = Field(
-        "Whether it is also proved that no branch is missing, even a closed one between two of these speeds; for a "
-        "cord whether a theorem counts the shapes (see `steady_shapes`) and every branch was followed to its end. With "
-        "``hanging_only=False`` it is false, except for a chain of one link, which has one posture.",
+        "Whether it is also proved that no branch is missing, even a closed one between two of these speeds; for a cord by "
+        "a theorem (see `steady_shapes`). With ``hanging_only=False`` it is false, except for a chain of one link.",
         fact=True,
     )
     remark: Field[str] = Field("A sentence that says what may be missing.", fact=True)
@@ -702,7 +673,7 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
     _stability: Field[bool] = Field("Whether the verdicts were asked for, so that reports list the windows.")
 
     def _is_good(self) -> bool:
-        """Return whether everything was found and proved; of other postures only consistent lists are required."""
+        """Whether all was found and proved; of other postures consistent lists are enough."""
         return super()._is_good() or (self._is_of_postures and self.consistent and self.remark.startswith(OWN))
 
     @property
@@ -732,7 +703,7 @@ class Branches(Results[Branch], Moving, row="branch", title="{_title_words}", go
         Returns
         -------
         StabilityWindows
-            The windows, branch by branch; ``branch`` has the number of the branch of each.
+            The windows, branch by branch.
 
         Raises
         ------
@@ -801,7 +772,7 @@ def _by_link(sheet: Sheet, system: Any) -> list[Column]:
 
 
 def _verdict_column(branches: Sequence[Branch]) -> list[Column]:
-    """The verdict at each point of branches, if it is known or computed soon and all of them have one."""
+    """The verdict at each point, if it is known or computed soon."""
     known = all("verdict" in branch.__dict__ for branch in branches)
     if not known and sum(branch._work for branch in branches) > MOST_JUDGED:
         return []
@@ -862,14 +833,13 @@ def _each(shapes: list[Any], name: str) -> list[Any]:
 
 
 def branches_made(found: Any, system: Any, gravity: float, direction: int, stability: bool) -> Branches:
-    """Make `Branches` from a list of compiled branches; `stability` says whether its verdicts are asked for."""
     items = tuple(branch_made(each, system, gravity, direction) for each in found.branches)
     given = {"system": system, "gravity": gravity, "direction": direction, "_stability": stability}
     return Branches._made(found, _items=items, **given, hanging_only=not (system._is_cord or system._is_held))
 
 
 def joined(diagrams: Sequence[Branches], system: Any) -> Branches:
-    """The diagram of all postures of a system from those of each posture; the first is that of the system itself."""
+    """The diagram of all postures of a system from those of each, its own first."""
     first, consistent = diagrams[0], all(each.consistent for each in diagrams)
     heights = [set(each.looked_at.tolist()) for each in diagrams if not each.complete]
     looked_at = sorted(set.intersection(*heights) if heights else first.looked_at.tolist(), reverse=True)

@@ -72,8 +72,8 @@ class Campbell(Result, row="speed", title="{summary}", notes=("{_remarks}",), sp
         "Whether no motion grows, as far as the exponents tell, shape (S,).", heading="stable", axes=()
     )
     crossings: Field[tuple[Crossing, ...]] = Field(
-        "Crossings of the frequencies with the multiples of the speed, by order and speed. Two between neighbouring speeds are "
-        "not seen.",
+        "Crossings of the frequencies with the multiples of the speed, by order and speed. Two between neighbouring speeds "
+        "can be missed.",
     )
     summary: Field[str] = Field("What was found, in words.", lambda c: c._words())
 

@@ -23,9 +23,8 @@ def _component(name: str, k: int) -> Field[Floats]:
 class ForceDiagram(Result, row="link", title="ForceDiagram: {_links} links, conical height {_height}"):
     """The graphical construction of a steady shape as data: links lowest first, pins free end first.
 
-    `SteadyShape.force_diagram` returns it. Points are rows ``(x from the axis, z upwards)``. The vertices of the
-    funicular polygon are the pins, its sides are the links, and `load` are its loads. In the force diagram the load line
-    rises from the pole O, and the ray ``OQ_m`` is parallel to link m. For point masses its length is the pull in the link.
+    `SteadyShape.force_diagram` returns it. Points are rows ``(x from the axis, z upwards)``. In the force diagram the ray
+    ``OQ_m`` from the pole O is parallel to link m; for point masses its length is the pull in the link.
 
     Examples
     --------
@@ -43,9 +42,7 @@ class ForceDiagram(Result, row="link", title="ForceDiagram: {_links} links, coni
     load: Field[Floats] = Field(
         "Load on each pin without the support, shape (N, 2): centrifugal force outwards, weight (negative)."
     )
-    ray: Field[Floats] = Field(
-        "Vector from the pole to ``Q_m``, shape (N, 2): parallel to link m, the side between pins m and m + 1."
-    )
+    ray: Field[Floats] = Field("Vector from the pole to ``Q_m``, shape (N, 2), parallel to link m.")
     reaction: Field[Floats] = Field(
         "Reaction at the upper pin of each link on the chain below, shape (N, 2); for point masses the ray."
     )
@@ -54,20 +51,19 @@ class ForceDiagram(Result, row="link", title="ForceDiagram: {_links} links, coni
     reaction_x, reaction_z = _component("reaction", 0), _component("reaction", 1)
     lifted: Field[Floats] = Field(
         "Place where the line of each load from the pole meets the horizontal line ``conical_height`` below it, shape "
-        "(N,). For point masses these are their offsets: P lifted vertically onto that line.",
+        "(N,); for point masses their offsets.",
         heading="lifted",
     )
     centre_of_gravity: Field[Floats] = Field(
         "Centre of gravity ``G_m`` of link m and all links below, shape (N, 2). ``K_m`` lies on the axis, "
-        "``conical_height`` higher. ``G_m K_m`` is parallel to the reaction, that is, to the thread above a point "
-        "mass.",
+        "``conical_height`` higher; ``G_m K_m`` is parallel to the reaction.",
         fact=True,
     )
     crossing: Field[Floats] = Field(
         "Height of ``C_m``, at which the line of link m meets the axis, shape (N,); infinite if they are parallel.",
         heading="crossing",
     )
-    conical_height: Field[float] = Field("Conical height of the speed: the distances ON and HK.", fact=True)
+    conical_height: Field[float] = Field("Conical height of the speed, m.", fact=True)
 
     @property
     def _links(self) -> int:

@@ -17,12 +17,11 @@ class DragShape(Result, row="link", title="{summary}", notes=("{_remarks}",), go
     """The steady shape of a chain that is carried round through still air; returned by `drag_shape`.
 
     It turns as a rigid figure about the vertical axis. Coordinates are in the turning frame: x outward through the support
-    (through a spring's rest position, if it has one), y in the sense of the motion (trailing parts are at negative y), z
-    upward from the support.
+    (through a spring's rest position, if it has one), y in the sense of the motion, z upward from the support.
 
     Examples
     --------
-    A chair of 80 kg on a carousel, and the torque that each chair takes:
+    A chair of 80 kg on a carousel:
 
     >>> import revchain as rc
     >>> carousel = rc.Rig(rc.Chain(mass=80.0, length=4.0), support=rc.Support(radius=3.0))
@@ -36,7 +35,7 @@ class DragShape(Result, row="link", title="{summary}", notes=("{_remarks}",), go
 
     __slots__ = ()
     link: Field[Whole] = Field(
-        "Number of each link in the list that was given; the array starts with the lowest link.",
+        "Number of each link in the list that was given; the lowest link first.",
         lambda s: s.system._link_numbers,
         heading="link",
         shown=lambda s: getattr(s.system, "names", None) or getattr(s.system.chain, "names", None),
@@ -51,8 +50,8 @@ class DragShape(Result, row="link", title="{summary}", notes=("{_remarks}",), go
         part=True, heading="inclination", unit="rad",
     )
     azimuth: Field[Floats] = Field(
-        "Direction in which each link leads away from its upper pin, seen from above: from outward (x) towards the sense of "
-        "motion (y), rad, within (-pi, pi], shape (N,). Negative: the link trails.",
+        "Direction in which each link leads away from its upper pin, seen from above: from outward (x) towards the sense "
+        "of motion (y), rad, within (-pi, pi], shape (N,). Negative where the link trails.",
         part=True, heading="azimuth", unit="rad",
     )
     outward: Field[Floats] = Field(
@@ -80,30 +79,29 @@ class DragShape(Result, row="link", title="{summary}", notes=("{_remarks}",), go
         part=True,
     )
     torque: Field[float] = Field(
-        "Torque about the axis that keeps the chain turning, in the sense of the motion, N m (or weight times length): the "
-        "moment of the chain's force on the support. The drag of the arm is not in it.",
+        "Torque about the axis that keeps the chain turning, in the sense of the motion, N m (or weight times length), "
+        "without the drag of the arm.",
         lambda s: s._per * s._found().torque, part=True, fact=True,
     )
     power: Field[float] = Field(
-        "Torque times speed, W: the power that the drag takes.", lambda s: s.torque * abs(s.angular_speed), fact=True
+        "Torque times speed, W.", lambda s: s.torque * abs(s.angular_speed), fact=True
     )
     status: Field[str] = Field(
-        "``'success'``; ``'fold'`` if the way to this speed or drag turns back at `factor` and is not found to lead there; "
-        "``'stalled'`` if the continuation did not converge and met no fold.",
+        "``'success'``; ``'fold'`` if the way to this speed or drag turns back at `factor`; ``'stalled'`` if the "
+        "continuation did not converge.",
         part=True, fact=True,
     )
     factor: Field[float] = Field(
-        "1 if `status` is success. Otherwise the shape is that with this share of the drag or, from rest, of the squared "
-        "speed.",
+        "1 on success; otherwise the share of the drag or, from rest, of the squared speed at which the shape is.",
         part=True, fact=True,
     )
     folds: Field[int] = Field(
-        "Number of folds on the way, at each of which it turns back or forth again. If it is not 0, a chain whose speed (or "
-        "drag) grows slowly jumps on its way, perhaps to another shape.",
+        "Number of folds on the way. If it is not 0, a chain whose speed (or drag) grows slowly jumps, perhaps to another "
+        "shape.",
         part=True, fact=True,
     )
     residual: Field[float] = Field(
-        "Largest moment about an upper pin that is not balanced, over total weight times total length.", part=True, fact=True
+        "Largest unbalanced moment about an upper pin, over total weight times total length.", part=True, fact=True
     )
     error_estimate: Field[float] = Field("Estimated error of the direction of each link, rad.", part=True, fact=True)
     summary: Field[str] = Field("What was found, in words.", lambda s: s._words())
@@ -115,7 +113,7 @@ class DragShape(Result, row="link", title="{summary}", notes=("{_remarks}",), go
 
     @property
     def half_waves(self) -> int | None:
-        """Half waves of the shape without drag, as given; None: the shape that begins at rest."""
+        """Half waves of the shape without drag, as given; None for the shape that begins at rest."""
         return self._half_waves
 
     @property

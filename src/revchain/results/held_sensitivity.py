@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Derivatives of a steady shape of a chain held at both ends by speed, span or tension, and the data of chain and ends."""
+"""Derivatives of a steady shape of a chain held at both ends."""
 
 from __future__ import annotations
 

@@ -197,7 +197,6 @@ def changes_of(at: Balance) -> dict[str, Change]:
 
 
 def _rigged(at: Balance, rig: Rig) -> dict[str, Change]:
-    """Return the changes of a shape by the data of a rig that a chain does not have."""
     fluid, turns, none = slice(at.size, None), rig.fluid == "turning", np.zeros((at.size, 1))
     return {
         "momentum": Change(kappa=at.speed * np.eye(at.size)),
@@ -266,7 +265,6 @@ def shape_sensitivity(shape: SteadyShape) -> Sensitivity:
 
 
 def of_shape(links: int, found: list[dict[str, Floats]]) -> Sensitivity:
-    """The derivatives of inclinations, offsets and tensions."""
     parts = {}
     for of, value in zip(PARTS, found, strict=True):
         rows = len(value["angular_speed"])

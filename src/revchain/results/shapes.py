@@ -43,10 +43,9 @@ class Stability(
 
     Notes
     -----
-    Exponents and verdict are without damping, except for dashpots at the pins of a rig. A minimum stays stable with
-    friction at the pins. A shape that is only ``spectrally stable`` is stabilized by gyroscopic forces: any friction at
-    the pins makes its motions of negative energy grow. `internal_damping` and `external_damping` give the effect on each
-    motion, to first order.
+    Exponents and verdict are without damping, except for dashpots at the pins of a rig. A minimum stays stable with friction
+    at the pins. A ``spectrally stable`` shape is held by gyroscopic forces; friction at the pins can make it unstable.
+    `internal_damping` and `external_damping` give the effect on each motion, to first order.
 
     References
     ----------
@@ -77,13 +76,10 @@ class Stability(
     frame: Field[str] = Field("Frame of the analysis: ``'free'`` or ``'driven'``.", fact=True)
     verdict: Field[str] = Field("``'minimum'``, ``'spectrally stable'``, ``'unstable'`` or ``'undecided'``.", fact=True)
     exponents: Field[NDArray[np.complex128]] = Field(
-        "All ``s`` of ``exp(s n t)``, ordered by imaginary part, without those of the rotation itself: ``4 N - 2`` for N "
+        "The ``s`` of ``exp(s n t)``, ordered by imaginary part, without those of the rotation itself: ``4 N - 2`` for N "
         "links in the free frame, ``2 N`` in the driven frame; for N links held at both ends ``4 N - 8`` and ``2 N - 4``. "
-        "The links are rods without inertia about their own axes. A pin without mass reduces the number: the two links "
-        "that meet there stay in line. Each end that yields adds 4 in the free frame, 2 in the driven frame. If an end is "
-        "carried round, or both are, 2 are added in the free frame, because no rotation is left out. An end that yields "
-        "where no mass moves adds 2 in both frames. For a cord the slowest of infinitely many, up to the first on which "
-        "two discretisations do not agree to 1e-6.",
+        "Ends that yield or are carried round add to the number, pins without mass reduce it. For a cord the slowest ones, "
+        "up to the first on which two discretisations do not agree to 1e-6.",
         heading="growth (n)",
         column="value",
         shown=lambda s: s.exponents.real,
@@ -94,36 +90,29 @@ class Stability(
         heading="frequency (n)",
     )
     exponent_error: Field[Floats] = Field(
-        "Estimate of the error of each exponent due to rounding in the shape, its tensions and all later steps (for a "
-        "cord, at least the difference of two discretisations). It is large where two exponents meet, or one is near "
-        "0.",
+        "Estimated error of each exponent, from rounding and for a cord from discretisation. It is large where two "
+        "exponents meet, or one is near 0.",
         heading="error (n)",
         digits=2,
     )
     internal_damping: Field[Floats] = Field(
-        "Effect of friction at the pins on each exponent, in 1/(kg m^2): this number times a small damping c is added "
-        "to the growth rate (1/s). The damping c, N m s, is the moment at each pin divided by the relative angular "
-        "speed of its links in the turning frame. NaN if two exponents coincide, and for a cord, which has no bending "
-        "stiffness.",
+        "Effect of friction at the pins on each exponent, in 1/(kg m^2): this number times a small damping c is added to "
+        "the growth rate (1/s). The damping c, N m s, is the moment at a pin over the relative angular speed of its links "
+        "in the turning frame. NaN if two exponents coincide, and for a cord.",
         heading="with friction at pins",
     )
     external_damping: Field[Floats] = Field(
-        "Effect of drag in still air on each exponent, in m/kg: this number times a small drag c is added to the "
-        "growth rate. The drag c, N s/m^2, is the force per metre of link divided by its velocity in space. Without "
-        "flywheels and dashpots, a drag proportional to mass lowers each growth rate by half the ratio of drag to mass. "
-        "NaN if two exponents coincide.",
+        "Effect of drag in still air on each exponent, in m/kg: this number times a small drag c is added to the growth "
+        "rate. The drag c, N s/m^2, is the force per metre of link over its velocity in space. NaN if two exponents "
+        "coincide.",
         heading="with drag in air",
     )
     growth_rate: Field[float] = Field(
-        "Largest real part of the exponents, at least 0, in units of the turning speed; without exponents, as in a "
-        "rotating fluid, 0 for a minimum, else NaN.",
+        "Largest real part of the exponents, at least 0, in units of the turning speed; without exponents 0 for a minimum, "
+        "else NaN.",
         fact=True,
     )
-    margin: Field[float] = Field(
-        "Growth rate up to which the errors leave the verdict open: the largest `exponent_error`, or another bound for "
-        "cords.",
-        fact=True,
-    )
+    margin: Field[float] = Field("Growth rate up to which the errors leave the verdict open.", fact=True)
     negative_directions: Field[int] = Field(
         "Number of negative directions of the energy in the turning frame, at constant angular momentum in the free "
         "frame.",
@@ -143,7 +132,7 @@ class Place(NamedTuple):
     offset : float or ndarray
         Offset from the axis, m.
     height : float or ndarray
-        Height above the support (of a held cord: above its lower end), m; negative if the cord hangs.
+        Height above the support (of a held cord: above its lower end), m.
     inclination : float or ndarray
         Inclination to the vertical, rad; positive if the offset decreases towards the upper end.
     tension : float or ndarray
@@ -164,7 +153,7 @@ class Place(NamedTuple):
 
 
 def forced(name: str) -> Callable[[Any], Any]:
-    """A function that returns a force or energy of the compiled result, times the factor `_per` of the result."""
+    """A function that returns a force or energy of the compiled result, times `_per` of the result."""
 
     def compute(result: Any) -> Any:
         found, per = result._found(), result._per
@@ -177,7 +166,6 @@ def forced(name: str) -> Callable[[Any], Any]:
 
 
 def in_space(x: ArrayLike = 0.0, y: ArrayLike = 0.0, z: ArrayLike = 0.0) -> Floats:
-    """Return vectors in space, made of their components along the three axes."""
     return np.stack(np.broadcast_arrays(*(np.asarray(each, np.float64) for each in (x, y, z))), axis=-1)
 
 
@@ -199,8 +187,8 @@ class SteadyShape(
 ):
     """One steady shape (relative equilibrium) of a system at one speed.
 
-    `steady_shapes`, `steady_shape` and the branches return it. Arrays start at the free end, of a held system at the
-    lower end: N links and their N + 1 pins, or n places of a cord, which are closest where it bends sharply.
+    `steady_shapes`, `steady_shape` and the branches return it. Arrays start at the free end, of a held system at the lower
+    end: N links and their N + 1 pins, or n places of a cord.
 
     Examples
     --------
@@ -231,38 +219,33 @@ class SteadyShape(
         fact=True,
     )
     error_bound: Field[float] = Field(
-        "Bound of the error of each inclination, rad; an estimate unless `proved`. For a cord also of each offset and "
-        "height divided by the length; measured errors reach 0.6 of it.",
+        "Bound of the error of each inclination, rad; for a cord also of each offset and height over the length. An "
+        "estimate unless `proved`.",
         fact=True,
     )
     proved: Field[bool] = Field(
-        "Whether `error_bound` is proved; else it is an estimate: for cords, at a fold of a branch, for held chains "
-        "with ``prove=False``, and where the proof fails.",
+        "Whether `error_bound` is proved. It is an estimate for cords, at folds of branches, and where no proof was asked "
+        "for or found.",
         fact=True,
     )
     residual: Field[float] = Field(
-        "Largest moment about a pin of the chain below it, divided by total weight times total length. For held "
-        "systems: largest unbalanced force divided by the tension, or largest gap at an end divided by the length. "
-        "For a hanging cord: unbalanced horizontal force of the whole at the support, or with a density function the "
-        "difference of two ways to compute the tension, divided by the tension there.",
+        "Unbalanced moment about a pin over total weight times total length; for cords and held systems an unbalanced "
+        "force over the tension, or a gap at an end over the length.",
         fact=True,
     )
     condition: Field[float] = Field(
-        "Largest change of an inclination, rad, divided by the relative change of the forces that causes it. Each "
-        "weight and each centrifugal force of a hanging chain changes by up to this fraction, with any sign; for "
-        "cords and held systems length, span or conical height change. It is large near a critical height.",
+        "Largest change of an inclination, rad, over the relative change of the forces that causes it (for cords and held "
+        "systems: of length, span or conical height). It is large near a critical height.",
         fact=True,
     )
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2; 0 without gravity.", fact=True)
     direction: Field[int] = Field(
-        "Direction of rotation, 1 or -1. Velocity and angular momentum have its sign; only the shapes of rigs with "
-        "flywheels depend on it.",
+        "Direction of rotation, 1 or -1; the shapes of rigs with flywheels depend on it.",
         fact=True,
     )
     moment_of_inertia: Field[float] = Field(
-        "Moment of inertia about the axis, with the masses on springs at its ends, kg m^2; for a system given by weight, in "
-        "weight times length squared. Still fluid adds its added mass, turning fluid subtracts the mass displaced. Not for "
-        "hanging cords.",
+        "Moment of inertia about the axis, with the masses on springs at its ends, kg m^2, or weight times length squared. "
+        "Still fluid adds its added mass, turning fluid subtracts the mass displaced. Not for hanging cords.",
         fact=True,
     )
     effective_energy: Field[float] = Field(
@@ -273,8 +256,8 @@ class SteadyShape(
         fact=True,
     )
     angular_momentum: Field[float] = Field(
-        "Angular momentum about the axis, kg m^2/s, or with the unit of the weights. For a `Rig` it includes that of "
-        "the flywheels, and is negative if the total is opposite to a positive speed. Not for hanging cords.",
+        "Angular momentum about the axis, of a `Rig` with that of its flywheels, kg m^2/s, or with the unit of the "
+        "weights. Not for hanging cords.",
         lambda s: s._angular_momentum(),
         fact=True,
     )
@@ -289,23 +272,19 @@ class SteadyShape(
         "hanging systems, to the upward one for held systems; positive if the offset decreases towards the upper end.",
     )
     offset: Field[Floats] = Field("Signed distance of each pin or place from the axis, m.")
-    height: Field[Floats] = Field(
-        "Height of each pin or place above the support, m; for a held system above its lower end."
-    )
+    height: Field[Floats] = Field("Height of each pin or place above the support, m; for a held system above its lower end.")
     tension: Field[Floats] = Field(
         "Magnitude of the reaction at the upper pin of each link, shape (N,), N or in the unit of the weights; a push is "
-        "positive, too, and printed tables name the links in compression; for a held "
-        "chain at each pin, shape (N + 1,); for a cord at each place.",
+        "positive, too. For a held chain at each pin, shape (N + 1,); for a cord at each place.",
         forced("tension"),
         part=True,
     )
     reaction_inclination: Field[Floats] = Field(
-        "Inclination of the (upward) force whose magnitude is `tension` to the vertical, rad. Not for cords, where it "
-        "is that of the cord."
+        "Inclination of the (upward) force whose magnitude is `tension` to the vertical, rad. Not for cords."
     )
     joint_angle: Field[Floats] = Field(
-        "Inclination of the link below each pin minus that of the link above it, rad, for pins with a `tension`; "
-        "beyond an end the inclination counts as 0. Not for cords.",
+        "Inclination of the link below each pin minus that of the link above it, rad, for pins with a `tension`; beyond an "
+        "end the inclination counts as 0. Not for cords.",
         lambda s: -np.diff(s.inclination, prepend=[0.0] * (s.reaction_inclination.size - s.inclination.size), append=0),
     )
     arc_length: Field[Floats] = Field("Distance of each place of a cord from the free or lower end along the cord, m.")
@@ -324,8 +303,7 @@ class SteadyShape(
         lambda s: in_space(x=-s.tension * np.sin(s.reaction_inclination), z=s.tension * np.cos(s.reaction_inclination)),
     )
     lower_pull: Field[Floats] = Field(
-        "Pull of a held system on its lower bearing, shape (2,): outwards (to the side of positive offsets) and "
-        "upwards.",
+        "Pull of a held system on its lower bearing, shape (2,): outwards (to the side of positive offsets) and upwards.",
         forced("lower_pull"),
         part=True,
     )
@@ -358,7 +336,7 @@ class SteadyShape(
         Raises
         ------
         ValueError
-            If a number lies outside the cord, or the shape is one of links, whose pins are in `offset` and `height`.
+            If a number lies outside the cord, or the shape is one of links.
 
         Examples
         --------
@@ -387,40 +365,31 @@ class SteadyShape(
         Parameters
         ----------
         frame : {"free", "driven"}, optional
-            ``free``: the links have ball joints and no torque acts about the axis, so that the angular momentum is
-            constant; a support that is carried round keeps its speed instead. ``driven``: the links have hinges; they,
-            and an end that yields, move in a plane that is driven at constant speed. Firm ends of held systems are
-            fixed in both.
+            ``free``: the links have ball joints and no torque acts about the axis; a support that is carried round keeps its
+            speed. ``driven``: the links have hinges; they, and an end that yields, move in a plane that is driven at
+            constant speed.
 
         Returns
         -------
         Stability
-            The stability. Accuracy: 1e-13 of the largest exponent for simple ones; with masses up to 1e16 apart 2e-13,
-            on arms and springs 5e-9. `exponent_error` estimates the error of each, and a verdict within it is
-            ``undecided``. Dashpots at the pins of a `Rig` (`Pin`) damp the exponents; `Stability.internal_damping` and
-            `Stability.external_damping` give the effect of a little more at the pins and of drag. Cost: O(N^3): 0.4
-            milliseconds for twenty links, 20 for a hundred; much longer where double precision loses digits and twice
-            the digits are used. For cords see `Stability.exponents`; the verdict is ``undecided`` if the growth rate is
-            0.01 to 1 times `Stability.margin`, or if two discretisations have different `negative_directions`. Cost: 6
-            milliseconds for a shape without nodes, 0.1 s for one of three half waves.
+            The stability. Accuracy: 1e-13 of the largest exponent for simple ones; with masses up to 1e16 apart 2e-13, on
+            arms and springs 5e-9. A verdict that the errors leave open is ``undecided``. Cost: O(N^3): 0.4 milliseconds for
+            twenty links, 20 for a hundred; longer where twice the digits are needed. Cost for cords: 6 milliseconds for a
+            shape without nodes, 0.1 s for one of three half waves.
 
         Raises
         ------
         ValueError
-            If `frame` is another word; if a motion moves no mass (a movable pin of a held chain without mass, but for
-            an upper end on a spring), or a flywheel or a dashpot acts on a support that yields where no mass moves; if
-            a support rolls freely; if, in the free frame of a support on the axis, a rig has dashpots and driven wheels.
+            If `frame` is another word, or the model does not cover the system, such as a support that rolls freely.
 
         Notes
         -----
-        In the free frame each link of a `Rig` keeps its angular momentum about its own axis (with its wheel, free or
-        driven), because ball joints transmit no torque along a link. Still fluid acts only by its added mass. The
-        motion of a turning fluid around a disturbed link is not modelled, so there are no exponents. A shape of least
-        energy at constant speed (except for a rotation) is then a minimum and stable in any such fluid; any other is
-        undecided.
+        Links have no inertia about their own axes, apart from wheels; in the free frame a link keeps the angular momentum of
+        its wheel. Still fluid acts by its added mass. In a turning fluid there are no exponents: a shape of least energy at
+        constant speed is a minimum, any other undecided.
 
-        Method for cords: Galerkin's method with polynomials on panels along the cord. The exponents of
-        ``cord.chain(N)`` differ from these by an amount proportional to ``1 / N**2``.
+        Method for cords: Galerkin's, with polynomials on panels. The exponents of ``cord.chain(N)`` approach these as
+        ``1/N**2``.
 
         Examples
         --------
@@ -463,8 +432,7 @@ class SteadyShape(
         Returns
         -------
         ForceDiagram
-            The diagram. Its rays are sums of weights and centrifugal forces from below; they are parallel to the links,
-            which is an independent check of the shape.
+            The diagram. Its rays are parallel to the links, which is an independent check of the shape.
 
         Raises
         ------
@@ -495,8 +463,8 @@ class SteadyShape(
         Returns
         -------
         Chain
-            The chain; each link has the length of its vertical projection. One of its modes has the conical height and
-            the offsets of the shape, for links of any kind; for point masses it is mode ``half_waves``.
+            The chain; each link has the length of its vertical projection. One of its modes has the conical height and the
+            offsets of the shape; for point masses it is mode ``half_waves``.
 
         Raises
         ------
@@ -505,8 +473,7 @@ class SteadyShape(
 
         Notes
         -----
-        Inclinations enter relation (21) only through ``conical_height / cos(inclination)``. Perpendicular to the
-        turning plane the shape is as stiff as this chain. Source: Greenhill (1908), section 8 (21).
+        Source: Greenhill (1908), section 8 (21).
 
         Examples
         --------
@@ -553,7 +520,7 @@ class SteadyShape(
 
     @property
     def _compressed(self) -> list[str]:
-        """Names of the links that are pushed at their upper pins: the reaction there points from the pin into the link."""
+        """Names of the links that are pushed at their upper pins."""
         if self.system._is_cord:
             return []
         count = len(self.inclination)
@@ -604,7 +571,7 @@ _BY_PIN |= {"joint_angle": "rad", "position": "m", "velocity": "m/s", "reaction"
 
 
 def _of_each(doc: str, of: Callable[[SteadyShape], Any], **column: Any) -> Field[Any]:
-    """A number or array of each shape of a list: one array, or a tuple of arrays of different lengths."""
+    """A number or array of each shape of a list."""
     return Field(doc, lambda shapes: stacked([of(shape) for shape in shapes]), **column)
 
 
@@ -620,7 +587,7 @@ def stacked(rows: list[Any]) -> Any:
 
 
 def _arrays_of_each(name: str, given: tuple[str, ...] = ()) -> Field[Any]:
-    """An array of each shape of a list. Its axis counts links, pins or places, unless it is given."""
+    """An array of each shape of a list."""
 
     def axes(shapes: Any) -> tuple[str, ...]:
         if not len(shapes):
@@ -696,30 +663,26 @@ class SteadyShapes(Results[SteadyShape], Moving, row="shape", title="{_heading}"
         "The turning speed, rad/s; None if the shapes were selected by an inclination, tip radius or tension.", fact=True
     )
     conical_height: Field[float | None] = Field(
-        "Conical height of the speed, m; 0 without gravity; None if the shapes were selected by an inclination, tip "
-        "radius or tension.",
+        "Conical height of the speed, m; 0 without gravity; None where `angular_speed` is.",
         fact=True,
     )
     complete: Field[bool] = Field(
-        "Whether it is proved that no shape is missing among those searched for: for a chain or rig the shapes in its own "
-        "posture, or with ``hanging_only=False`` all shapes; for a hanging cord all shapes; for a held system shapes with "
-        "up to `max_half_waves` half waves, in the plane of the axis and the ends. False if shapes may leave the plane with "
-        "the axis, which are not searched for: if both ends of a held chain are off the axis, and if a link of a chain or "
-        "rig could lean to any side under no load. False if only one branch was searched (`mode`).",
+        "Whether it is proved that no shape of the kind searched for is missing: for a chain or rig in its own posture, or "
+        "with ``hanging_only=False`` in any; for a held system with up to `max_half_waves` half waves, in the plane of the "
+        "axis and the ends. False where shapes may leave the plane of the axis, and if only the branch of a `mode` was "
+        "searched.",
         fact=True,
     )
     hanging_only: Field[bool] = Field(
-        "Whether shapes with a link above its upper pin were left out (of a rig: with other links inverted than those "
-        "of the rig); false for cords and held systems.",
+        "Whether shapes in other postures than that of the chain or rig were left out; false for cords and held systems.",
         fact=True,
     )
     undecided: Field[Floats] = Field(
-        "Ranges of the inclination of the lowest link in which there may be more shapes, rad, shape (k, 2). For a "
-        "held chain: shapes in the plane of the axis and the ends.",
+        "Ranges of the inclination of the lowest link in which there may be more shapes, rad, shape (k, 2).",
         fact=True,
     )
     missing: Field[tuple[int, ...]] = Field(
-        "For a held system: numbers of half waves with which none was found, up to `max_half_waves`.", fact=True
+        "Numbers of half waves, up to `max_half_waves`, with which no shape of a held system was found.", fact=True
     )
     mode: Field[int | None] = Field("Number of the mode whose branch was searched; None if all shapes were.", fact=True)
     cells: Field[int] = Field("Number of parts of the range that were examined.")
@@ -739,7 +702,7 @@ class SteadyShapes(Results[SteadyShape], Moving, row="shape", title="{_heading}"
 
     @property
     def _links_lean(self) -> bool:
-        """Whether all shapes in a plane with the axis are known and a link of a chain or rig could lean out of it."""
+        """Whether all shapes in a plane with the axis are known, and a link could lean out of it."""
         hangs = not (self.system._is_cord or self.system._is_held) and self.mode is None
         return hangs and not self.complete and not len(self.undecided)
 
@@ -796,7 +759,7 @@ MOST_NAMED = 4  # links in a note
 
 
 def compression(where: str, links: list[str]) -> str:
-    """Return a note about links in compression, of which tables print the size of the force; empty if there are none."""
+    """Return a note about links in compression; empty if there are none."""
     if not links:
         return ""
     more = f" and {len(links) - MOST_NAMED} more" if len(links) > MOST_NAMED else ""
@@ -805,7 +768,6 @@ def compression(where: str, links: list[str]) -> str:
 
 
 def at_speed(speed: float, unit: str | None = None) -> str:
-    """Return a speed in rad/s and rpm as words for a heading; in Hz or as a period if that was asked."""
     return f" at {speed_text(speed, unit)}"
 
 
@@ -814,13 +776,11 @@ def _speed(height: float, gravity: float) -> float:
 
 
 def shape_made(found: Any, system: Any, gravity: float, direction: int = 1, **given: Any) -> SteadyShape:
-    """The shape from a compiled one. Bounds of hanging links are proved unless `given` says otherwise."""
     given = {"proved": getattr(found, "proved", not hasattr(found, "arc_length")), **given}
     return SteadyShape._made(found, system=system, gravity=gravity, direction=direction, **given)
 
 
 def shapes_made(found: Any, system: Any, gravity: float, direction: int, **given: Any) -> SteadyShapes:
-    """The list of the compiled shapes of a system at one speed; `given` holds the speed and what was searched."""
     speed = {"angular_speed": given["angular_speed"]} if hasattr(system, "span") else {}
     items = tuple(shape_made(shape, system, gravity, direction, **speed) for shape in found.shapes)
     return SteadyShapes._made(found, _items=items, system=system, gravity=gravity, **{"mode": None, **given})

@@ -71,7 +71,7 @@ class Axis:
 
     @property
     def is_number(self) -> bool:
-        """Whether the values are real numbers; whole numbers and words may change the structure of the scene."""
+        """Whether the values are real numbers."""
         return self.values is None or self.values.dtype.kind == "f"
 
     @property
@@ -89,7 +89,7 @@ class Axis:
         return np.unique(self.values).tolist()  # type: ignore[no-any-return]
 
     def drawn(self, seed: int, count: int) -> Floats:
-        """Random numbers of the first `count` points; each depends only on law, seed, path and number of its point."""
+        """Random numbers of the first `count` points; each depends on law, seed, path and number of its point."""
         indexed = re.sub(r"\.(?=\[)", "", ".".join(f"[{step}]" if isinstance(step, int) else step for step in self.path))
         key = zlib.crc32(indexed.encode()), 0
         stream = np.random.Generator(np.random.SFC64(np.random.SeedSequence(seed, spawn_key=key)))
@@ -190,7 +190,6 @@ def quantity_of(path: Path) -> str:
 
 
 def _grid(table: Vary, quantity: str, numbers: Numbers) -> Floats | None:
-    """The values from one end to the other; None if they are wrong, which is noted."""
     for key, value in (("from", table.first), ("to", table.last), ("steps", table.steps)):
         if value is UNSET:
             numbers.refuse(key, "is missing")
@@ -209,7 +208,6 @@ def _grid(table: Vary, quantity: str, numbers: Numbers) -> Floats | None:
 
 
 def _listed(given: Any, parts: list[Any], quantity: str, numbers: Numbers) -> NDArray[Any]:
-    """The values of a list: words, true and false, or numbers."""
     if any(get_origin(part) is Literal or part is bool for part in parts):
         if len({type(value) for value in given}) != 1:
             numbers.refuse("values", "must be all of one kind")
@@ -221,7 +219,6 @@ def _listed(given: Any, parts: list[Any], quantity: str, numbers: Numbers) -> ND
 
 
 def _law(law: str, given: Any, quantity: str, numbers: Numbers) -> tuple[float, float]:
-    """Mean and deviation, or low and high end, of random numbers."""
     spread: Any = None
     if isinstance(given, str):
         parts = with_tolerance(given)

@@ -70,8 +70,7 @@ class Links:
 def links_of(scene: Scene, axes: Sequence[Axis]) -> Links | None:
     """Return how each number of the links depends on the varied ones; None if `conical_heights` cannot answer the study.
 
-    The function builds the scene at trial values: it raises each number alone by a quarter, then all of them together by
-    unequal parts, and checks the prediction.
+    It builds the scene at trial values: each number alone raised by a quarter, then all together by unequal parts.
     """
     if not _is_answered(scene) or not all(axis.is_number for axis in axes):
         return None

@@ -40,12 +40,10 @@ class Output(NamedTuple):
 
 
 def _of_modes(name: str, modes: Any) -> Any:
-    """Speeds, heights or bounds of the modes; nothing for the heights of a rig with damping, which has none."""
     return getattr(modes, name, ())
 
 
 def _turning(name: str, sign: int, modes: Any) -> Any:
-    """The sizes of speeds, heights or bounds of the modes that turn in one direction."""
     return np.abs(getattr(modes, name)[modes.direction == sign]) if hasattr(modes, name) else ()
 
 
@@ -54,7 +52,7 @@ def _of_each(name: str, link: int, shapes: Any) -> list[Any]:
 
 
 def _between_stops(name: str, found: Any) -> float:
-    """A number of a governor. The answer to a question without a speed is the governor itself."""
+    """A number of a governor, which is the answer to a question without a speed."""
     return getattr(getattr(found, "governor", found), name)  # type: ignore[no-any-return]
 
 
@@ -161,14 +159,13 @@ class Plan:
         ]
 
     def scene(self, values: Sequence[Any]) -> dict[str, Any]:
-        """The data of the scene with these numbers."""
         data = self.base
         for axis, value in zip(self.axes, values, strict=True):
             data = with_value(data, axis.path, value)
         return data
 
     def solve(self, values: Values, rows: Rows | None = None) -> Rows:
-        """Results at points with these numbers, put into `rows` if given; they do not depend on the other points."""
+        """Results at points with these numbers, put into `rows` if given."""
         rows = self.rows(len(values[0])) if rows is None else rows
         if self.links is not None:
             self.links.solve(values, self.outputs["conical_height"][0], rows)
@@ -199,7 +196,7 @@ class Plan:
 
 
 def answers(scene: Scene, find: Sequence[str]) -> tuple[dict[str, Any], bool]:
-    """The answers to these questions of a scene, and whether all are complete and within their tolerance."""
+    """The answers to these questions of a scene, and whether all are complete and proved."""
     found: dict[str, Any] = {question: _ANSWERS[question](scene) for question in find}
     proved = [
         "modes" not in found or found["modes"].status == "success",
@@ -244,7 +241,7 @@ def asked_of(scene: Scene, wanted: Sequence[str] | UnsetType, numbers: Numbers) 
 def outputs_of(
     scene: Scene, largest: Scene, find: tuple[str, ...], max_shapes: int, bounds: bool, varied: bool
 ) -> Labels:
-    """The outputs of a study; `largest` is the scene with the whole numbers and words that give the most links.
+    """The outputs of a study; `largest` is the scene with the most links.
 
     `varied` says that a varied number may give the top pin inertia, a spring, or neither.
     """
@@ -271,7 +268,7 @@ def outputs_of(
 
 
 def said(plan: Plan, name: str) -> dict[str, tuple[str, Callable[[Any], Any]]]:
-    """The variables in which a study stores an output: by name the unit, and the function that converts to it."""
+    """The variables in which a study stores an output: by name the unit and its conversion."""
     found: dict[str, tuple[str, Callable[[Any], Any]]] = {}
     if plan.all_of_modes or OUTPUTS[name].question != "modes":
         found[name] = OUTPUTS[name].unit, np.asarray
@@ -281,12 +278,11 @@ def said(plan: Plan, name: str) -> dict[str, tuple[str, Callable[[Any], Any]]]:
 
 
 def columns_of(name: str, labels: tuple[int, ...]) -> list[str]:
-    """Names of the columns of an output in a table."""
     return [f"{name}_{label}" for label in labels] or [name]
 
 
 def _modes_of(scene: Scene, largest: Scene, varied: bool) -> tuple[int, ...]:
-    """Numbers of the modes with columns: those asked for, at most those of the point with the most modes."""
+    """Numbers of the modes with columns."""
     ask = scene.ask.modes
     system: Any = largest.system()
     ask = AskModes() if isinstance(ask, UnsetType) else ask
@@ -306,7 +302,7 @@ def _modes_of(scene: Scene, largest: Scene, varied: bool) -> tuple[int, ...]:
 
 
 def _top_moves(rig: Any) -> bool:
-    """Return whether the top pin adds a mode: it is on a spring and has inertia. A free trolley has no such mode."""
+    """Return whether the top pin adds a mode: it is on a spring and has inertia."""
     top = rig.chain
     is_plummet = top.centroid[-1] == top.length[-1] and top.radius_of_gyration[-1] == 0 and rig.displaced is None
     return bool(0 < rig.support.stiffness < math.inf and (rig.support.carriage or not is_plummet))
@@ -318,6 +314,5 @@ def _turns(scene: Scene) -> bool:
 
 
 def _speeds_of(ask: Any) -> int:
-    """Number of speeds of [ask.response] or [ask.campbell]."""
     given = ask.conical_height if ask.angular_speed is UNSET else ask.angular_speed
     return given.steps if isinstance(given, Spread) else len(given) if isinstance(given, list) else 1

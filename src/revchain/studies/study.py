@@ -47,23 +47,20 @@ class Study(Table, frozen=True):
         The scene, or the path of its file, from the folder of the study.
     vary : dict of str to Vary
         Values by path into the scene, such as ``links[load].mass`` or ``links[0].mass``, with the name of a link or its
-        index in the order of the file. Grids are combined, each value with each. Random numbers are drawn for each point.
+        index in the file. Grids are combined, each value with each; random numbers are drawn for each point.
     samples : int
         Number of points with random numbers at each point of the grids.
     seed : int
         Seed of the random numbers.
     find : list of {"modes", "shapes", "response", "campbell", "drag", "equilibria"}, optional
-        Questions to answer. ``"angular_speed"``, ``"rpm"``, ``"frequency"`` and ``"period"`` store the speeds of modes in
-        these units; with ``"modes"`` beside it also all else of modes. If left out, those for which the scene has a
-        table; if it has none, its modes, or the equilibria of a governor.
+        Questions to answer; those of the scene if left out. ``"angular_speed"``, ``"rpm"``, ``"frequency"`` and ``"period"``
+        store the speeds of modes in these units; with ``"modes"`` beside it also all else of modes.
     max_shapes : int
         Largest number of stored steady shapes, or equilibria of a governor, of each point.
     scatter : Scatter, optional
-        With ``worst=True``: also find the proved lowest and highest speeds over the intervals of random numbers, uniform or
-        log_uniform.
+        With ``worst=True``: also find the proved lowest and highest speeds over intervals of uniform or log_uniform numbers.
     error_bounds : bool, optional
-        Whether to store error bounds. If left out, they are stored, except where chains are computed in batches, to
-        a few ulp without bounds (see `sweep`).
+        Whether to store error bounds. If left out, batches have none (see `sweep`).
     title, description : str
         Texts for readers.
     schema_version : int
@@ -123,7 +120,7 @@ class Study(Table, frozen=True):
         Raises
         ------
         SceneError
-            If the data are not a valid study. The error is a ValueError; it has the source, the key and the reason.
+            If the data are not a valid study (the error is a ValueError).
 
         Examples
         --------
@@ -138,7 +135,6 @@ class Study(Table, frozen=True):
 
     @classmethod
     def _read(cls, data: Any, source: str, folder: Path, problems: list[Problem]) -> Self:
-        """The study; one error for all problems, with those of its syntax."""
         scene = data.get("scene") if isinstance(data, dict) else None
         if isinstance(scene, str):
             try:
@@ -208,7 +204,7 @@ class Study(Table, frozen=True):
         return Scene.from_dict(plan.scene([column[point].item() for column in plan.values()]))
 
     def _speed_unit(self) -> str | None:
-        """The unit of speeds in printed tables and pictures: that of the scene, or in which speeds are varied or asked."""
+        """The unit of speeds in printed tables and pictures, from the scene or the study."""
         assert isinstance(self.scene, Scene)
         if not isinstance(self.scene.speed, UnsetType):
             return self.scene.speed
@@ -216,7 +212,6 @@ class Study(Table, frozen=True):
         return speed_unit([to_builtins(self.vary[key]) for key in speeds]) or speed_unit(to_builtins(self.scene.ask))
 
     def _refusal(self, point: int) -> str:
-        """The reason why a point has no numbers."""
         try:
             answers(self.scene_at(point), self._plan("study").find)
         except (ValueError, OverflowError) as error:
@@ -224,7 +219,6 @@ class Study(Table, frozen=True):
         return ""
 
     def _plan(self, source: str, known: Sequence[Problem] = ()) -> Plan:
-        """The checked plan of the study; one error for all problems, with those already known."""
         numbers, inside = Numbers(source), [one for one in known if one.key.startswith("scene.")]
         numbers.problems += [one for one in known if one not in inside]
         scene, base, find = self.scene, dict[str, Any](), tuple[str, ...]()
@@ -292,8 +286,7 @@ def load_study(path: str | os.PathLike[str]) -> Study:
     Raises
     ------
     SceneError
-        If the file cannot be read or is not a valid study. The error is a ValueError; it gives the file and the reason
-        of each problem, with line, column and key where there are any.
+        If the file cannot be read or is not a valid study (the error is a ValueError).
 
     Examples
     --------
@@ -316,7 +309,7 @@ def study_schema() -> dict[str, Any]:
 
 
 def _refuse_twice(axes: tuple[Axis, ...], numbers: Numbers) -> None:
-    """Note an error for a path that is given twice or lies inside another, and for a name given twice."""
+    """Note an error for a path or a name that is given twice."""
     for k, axis in enumerate(axes):
         caller = numbers.of(joined("vary", axis.key))
         for other in axes[:k]:
@@ -328,7 +321,7 @@ def _refuse_twice(axes: tuple[Axis, ...], numbers: Numbers) -> None:
 
 
 def _refuse_two_speeds(axes: tuple[Axis, ...], find: tuple[str, ...], numbers: Numbers) -> None:
-    """Note an error if the speed of [ask.shapes] or [ask.drag] is varied while that of the other is constant."""
+    """Note an error if one speed of [ask.shapes] and [ask.drag] is varied and the other is not."""
     names = ("angular_speed", "conical_height")
     speeds = {str(axis.path[1]): axis for axis in axes if axis.path[0] == "ask" and axis.path[-1] in names}
     varied = [question for question in ("shapes", "drag") if question in speeds]
@@ -340,7 +333,7 @@ def _refuse_two_speeds(axes: tuple[Axis, ...], find: tuple[str, ...], numbers: N
 
 
 def _check(base: dict[str, Any], axis: Axis, numbers: Numbers) -> None:
-    """Note the values of an axis that the scene refuses: the ends of a grid, or a number in the middle of random ones."""
+    """Note the values of an axis that the scene refuses."""
     own = _kind(Scene.from_dict(base))
     for value in axis.examples():
         try:
@@ -367,7 +360,7 @@ def _kind(scene: Scene) -> str:
 
 
 def _largest(base: dict[str, Any], axes: tuple[Axis, ...], source: str) -> Scene:
-    """The scene with those whole numbers and words that give the most links."""
+    """The scene with the most links."""
     for axis in axes:
         if not axis.is_number:
             each = [with_value(base, axis.path, value) for value in axis.examples()]

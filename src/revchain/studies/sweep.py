@@ -58,27 +58,24 @@ def sweep(
     out : path-like, optional
         File for the results: ``.nc`` (netCDF, which xarray reads), or a table with a row for each point, ``.csv``,
         ``.parquet`` or ``.xlsx`` (a workbook, up to 1,048,575 points). It is written when all points are done. Until then
-        finished chunks are stored in the folder ``OUT.partial`` beside it. After an interruption or a kill, the same
-        call continues without recomputing finished chunks.
+        finished chunks are in the folder ``OUT.partial`` beside it; after an interruption the same call continues from them.
     executor : concurrent.futures.Executor, optional
         Executor for the chunks, such as a ``ProcessPoolExecutor``, or ``client.get_executor()`` of a Dask cluster; threads
         if left out. It is not shut down.
     workers : int, optional
         Number of threads, or of workers of the executor; one for each processor if left out.
     chunk : int, optional
-        Number of points that are computed and stored together. If left out, 65,536 points of a batch, or up to 100
-        points that are solved one by one (a ten-thousandth of all points if that is more).
+        Number of points that are computed and stored together; chosen by the sweep if left out.
     progress : callable, optional
-        Function that is called repeatedly with the number of finished points and the number of all points.
+        Called with the number of finished points and that of all points.
 
     Returns
     -------
     xarray.Dataset
-        The results by name, with SI units in ``attrs["units"]``. There is one dimension for each grid, one named
-        ``sample`` for random numbers, and one each for the modes, shapes, speeds, orders or equilibria found. NaN (0 for
-        whole numbers, False for verdicts) stands for a missing result. The variable ``status`` is 1 for success, 2 if a
-        result is not proved, 3 for a refused point. The numbers are bitwise equal for any executor, number of
-        workers and chunk.
+        The results by name, with SI units in ``attrs["units"]``. There is one dimension for each grid, one named ``sample``
+        for random numbers, and one each for the modes, shapes, speeds, orders or equilibria found. NaN (0 for whole numbers,
+        False for verdicts) stands for a missing result. The variable ``status`` is 1 for success, 2 if a result is not
+        proved, 3 for a refused point. The numbers do not depend on `executor`, `workers` and `chunk`.
 
     Raises
     ------
@@ -90,22 +87,21 @@ def sweep(
     ValueError
         If `out` has another extension or cannot hold all points, or `workers` or `chunk` is below 1.
     TypeError
-        If `study` or `out` is not a path, `executor` is not an executor (its class is none), or `progress` is not callable.
+        If an argument has the wrong type.
     ImportError
         If xarray or a package that writes `out` is missing; the message says how to install it.
 
     Warns
     -----
     UserWarning
-        If a stored chunk cannot be read; its points are computed again. If the partial folder holds other files; it stays.
+        If a stored chunk cannot be read (its points are computed again), or the partial folder holds other files and stays.
 
     Notes
     -----
-    Chains of up to 100 links whose numbers are proportional to the varied ones go to `revchain.conical_heights`
-    together, if only modes are asked for, without bounds and without a small ``rtol``. All other points are solved by the
-    methods of `Scene`. A refused point has no numbers; `Study.scene_at`, or the question asked of its scene, raises the
-    error with the reason. Cost: 0.1 microseconds a point of two links in a batch, 0.2 to 1
-    ms otherwise, if the question is not a long one.
+    If only modes are asked for, points of a `Chain` can be computed in batches, without bounds, by
+    `revchain.conical_heights`; ``revchain sweep STUDY --check`` says whether they are. A refused point has no numbers;
+    `Study.scene_at`, or the question asked of its scene, raises the error with the reason. Cost: 0.1 microseconds a point of
+    two links in a batch, 0.2 to 1 ms otherwise, if the question is not a long one.
 
     Examples
     --------
@@ -160,7 +156,7 @@ def sweep(
 def _computed(
     plan: Plan, values: Values, rows: Rows, chunk: int, pool: Executor, in_place: bool, folder: Path | None
 ) -> Generator[int, None, None]:
-    """Compute the points without results and store each chunk in the folder; yield the number of its points."""
+    """Compute the points without results, store each chunk, and yield the number of its points."""
     ends = np.flatnonzero(np.diff(rows["status"] == 0, prepend=False, append=False)).reshape(-1, 2)
     pending: dict[Future[Rows], int] = {}
     try:
@@ -254,7 +250,7 @@ def _remove(folder: Path) -> None:
 
 
 def check_output(path: str | os.PathLike[str], points: int) -> None:
-    """Raise an error if an output cannot hold so many points, has an unknown ending, or lacks a package that writes it."""
+    """Raise an error if an output cannot be written."""
     ending = Path(file_path(_CALLER, "the output", path)).suffix.lower()
     if ending not in PACKAGES:
         raise ValueError(f"{os.fspath(path)} must end in .csv, .parquet, .xlsx or .nc")
@@ -265,7 +261,6 @@ def check_output(path: str | os.PathLike[str], points: int) -> None:
 
 
 def write(found: Dataset, path: Path) -> None:
-    """Write the results as netCDF or as a table."""
     if path.suffix.lower() == ".nc":
         h5netcdf, backends = (require(name, "sweep", "a .nc file") for name in ("h5netcdf", "xarray.backends"))
         with hdf5_file(path) as guarded, h5netcdf.File(guarded, "w") as target:
@@ -283,7 +278,6 @@ def write(found: Dataset, path: Path) -> None:
 
 
 def _pages(found: Dataset) -> list[Page]:
-    """The sheets of a workbook: what the study is, and the table of points, with units."""
     from .. import __version__
 
     study = json.loads(found.attrs["study"])
@@ -303,7 +297,6 @@ def _pages(found: Dataset) -> list[Page]:
 
 
 def dataset(study: Study, plan: Plan, values: Values, rows: Rows) -> Dataset:
-    """The results as an xarray data set."""
     coordinates: dict[str, Any] = {}
     data: dict[str, Any] = {}
     grids = [axis.name for axis in plan.axes if axis.values is not None]
@@ -332,7 +325,6 @@ def dataset(study: Study, plan: Plan, values: Values, rows: Rows) -> Dataset:
 
 
 def columns(found: Dataset) -> dict[str, NDArray[Any]]:
-    """The results as columns with a row for each point: its number, the varied numbers, the results, the status."""
     status = found["status"]
     table: dict[str, NDArray[Any]] = {"point": np.arange(status.size)}
     for name in [*(name for name in status.dims if name in found.coords), *found.data_vars]:
