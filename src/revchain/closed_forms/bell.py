@@ -48,7 +48,7 @@ class Strike(NamedTuple):
 class BellAndClapper(
     Result, row="mode", title="BellAndClapper: one piece where mismatch is 0, here {mismatch:.4g}"
 ):
-    """The two modes of a bell and its clapper, and how far they are from swinging as one piece; see `bell_and_clapper`.
+    """The two modes of a bell and its clapper; returned by `bell_and_clapper`.
 
     Examples
     --------
@@ -91,7 +91,7 @@ class BellAndClapper(
     )
     silent_height: Field[float] = Field(
         "Conical height of the first mode if both swing as one piece, m: the pendulum length of the clapper plus the "
-        "joint, each negative if that body is inverted.",
+        "joint, each negative for an inverted body.",
         fact=True,
     )
     mismatch: Field[float] = Field(
@@ -237,7 +237,7 @@ def bell_and_clapper(
         ``l1 + a2 / r``; an inverted clapper changes the sign of l1, an inverted bell that of a2. This holds for small
         inclinations, and for any inclination if both swing as one piece.
 
-    The ratio grows with the distance of the bell's centre of gravity below the axle:
+    For this bell the ratio grows with the distance of its centre of gravity below the axle:
 
     >>> chain = rc.Chain(weight=[18, 500], length=[0.65, 0.15], centroid=[0.52, 0.2], radius_of_gyration=[0.08, 0.3])
     >>> rc.bell_and_clapper(chain).derivative["bell_centroid"] > 0

@@ -177,9 +177,8 @@ class TortuousPoints(NamedTuple):
     """Points of a tortuous rope.
 
     `x`, `arc`: distances along the axis and along the rope from the point nearest to the axis. `radius`: distance from
-    the axis. `angle`: angle round the axis; for the plane rope 0 at ``x = 0``, pi/2 up to the next crossing of the
-    axis, and pi more after each. `radius_slope`, `angle_slope`: ``d radius / dx``, ``d angle / dx``. `tension_ratio`:
-    tension divided by its component along the axis.
+    the axis. `angle`: angle round the axis, 0 at ``x = 0``. `radius_slope`, `angle_slope`: ``d radius / dx``,
+    ``d angle / dx``. `tension_ratio`: tension divided by its component along the axis.
     """
 
     x: FloatOrArray
@@ -312,7 +311,7 @@ class SkippingRope(Solved, row="rope", title="SkippingRope: {self._waves}"):
 class TortuousRope(
     Solved, row="rope", title="TortuousRope: {self._given[angular_speed]:g} rad/s, tension {self._given[tension]:g}"
 ):
-    """A rope that whirls and winds round the axis without gravity; its ends are off the axis.
+    """A rope that whirls and winds round the axis without gravity.
 
     least_radius: Smallest distance of the rope from the axis; 0 gives the plane rope, `greatest_radius` a helix.
     tension: Component of the tension along the axis, as the length of rope of equal weight

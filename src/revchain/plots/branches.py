@@ -115,7 +115,7 @@ def plot_branches(
     """Draw the bifurcation diagram: a quantity of each branch against the speed.
 
     Colours show half waves at the start, or the posture with ``hanging_only=False`` if there are at most 7. Lines are solid
-    where the shape is a minimum of the energy, dash-dotted where it is spectrally stable, dashed where it is unstable,
+    where the shape is a minimum of the energy, dash-dotted where it is only spectrally stable, dashed where it is unstable,
     dotted where the stability is undecided. Hollow diamonds are folds, discs are pitchforks, crosses are other changes of
     stability; for chains and rigs `Branches.stability_windows` lists them. In large diagrams a short window can be missed.
 

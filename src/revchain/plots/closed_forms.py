@@ -340,9 +340,9 @@ def plot_vibration(string: GyrostaticString, angular_speed: float, links: int = 
 
 @described(bound=True)
 def plot_bell(bell: BellAndClapper, ax: Axes | None = None) -> Axes:
-    """Draw bell, clapper and headstock at rest, true to scale.
+    """Draw bell and clapper at rest with their pendulum lengths.
 
-    returns: The drawing, with the pendulum lengths beside the bodies. The outline of the bell is only an illustration.
+    returns: The drawing. The outlines of the bell and its headstock are only illustrations.
 
     >>> links = {"mass": [18, 500], "length": [0.65, 0.15], "centroid": [0.52, 0.05]}
     >>> rc.bell_and_clapper(rc.Chain(**links, radius_of_gyration=[0.08, 0.36])).plot().get_ylabel()

@@ -92,8 +92,7 @@ class Straight:
         return max([*reach, WHEEL * has_wheels])
 
     def room(self, narrow: float = 1.0) -> tuple[float, float]:
-        """Return the room left of the axis for parts and right of it for names, in data units, in columns `narrow` times
-        narrower."""
+        """Return the room left of the axis for parts and right of it for names, in data units."""
         far, longest = self.beside(), max((len(line) + 2 for name in self.names() for line in name.split("\n")), default=0)
         left = max(SPACING / 2, far + 0.2 + 0.9 * (self.system._support is not None))
         return left, max(SPACING / 2, far + narrow * longest * LETTER * SPACING / COLUMN)

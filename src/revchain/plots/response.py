@@ -35,7 +35,7 @@ def plot_response(
     the offsets of the pins against their depths.
 
     pins: Numbers of the pins to draw. If left out: the lowest and up to three others; all at a single speed.
-    resonances: Whether to mark the whirl speeds of a chain in the range of the plot by vertical lines.
+    resonances: Whether to mark the whirl speeds of a chain in the range of the plot, if there are at most 60.
     raises: If `pins` has a pin that is not in this result, or the result has no speed.
 
     >>> import numpy as np
