@@ -20,14 +20,12 @@ from .table import described
 class Strike(NamedTuple):
     """The first blow of a clapper in one swing of its bell; see `BellAndClapper.first_strike`.
 
-    `strikes`: whether the clapper strikes. `side`: ``"leading"`` if the clapper has flown ahead of the bell
-    (a rising bell rings right), ``"trailing"`` if it has fallen behind. `bell_angle`: angle of the bell past its lowest
-    position, rad. `relative_speed`: speed of the clapper in the bell, rad/s, positive towards the leading side. `time`:
-    time after the start, s. The three numbers are NaN if the clapper does not strike. `status`: ``"strikes"``;
-    ``"turns"`` if the bell comes to rest first; ``"at_rest"`` if both start in balance, stable or not, and do not
-    move; ``"too_long"`` if neither happens in 300 periods of the slower body or 30,000 of the faster one.
-    `error_estimate`: of `bell_angle` in rad, and of `relative_speed` and `time` relative to their size; infinite if
-    rounding decides whether or where it strikes.
+    `side`: ``"leading"`` if the clapper has flown ahead of the bell, ``"trailing"`` if it has fallen behind. `bell_angle`:
+    angle of the bell past its lowest position, rad. `relative_speed`: speed of the clapper in the bell, rad/s, positive
+    towards the leading side. `time`: time after the start, s. The three numbers are NaN if the clapper does not strike.
+    `status`: ``"strikes"``; ``"turns"`` if the bell comes to rest first; ``"at_rest"`` if both start in balance;
+    ``"too_long"`` if neither happens in hundreds of swings. `error_estimate`: of `bell_angle` in rad, and of
+    `relative_speed` and `time` relative to their size; infinite if rounding decides whether or where it strikes.
 
     Examples
     --------
@@ -50,7 +48,7 @@ class Strike(NamedTuple):
 class BellAndClapper(
     Result, row="mode", title="BellAndClapper: one piece where mismatch is 0, here {mismatch:.4g}"
 ):
-    """The two modes of a bell and its clapper, and how far they are from swinging as one piece; see `bell_and_clapper`.
+    """The two modes of a bell and its clapper; returned by `bell_and_clapper`.
 
     Examples
     --------
@@ -67,13 +65,12 @@ class BellAndClapper(
     system: Field[Chain] = Field("Two links: the clapper, and above it the bell.")
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", fact=True)
     mode: Field[Whole] = Field(
-        "Numbers of the modes, 1 for the slower one: [2, 1] if the pin of the clapper is above the axle. Modes that fall "
-        "come last.",
+        "Numbers of the modes: 1 for the slower one. A mode that falls comes last.",
         lambda b: 1 + np.argsort(np.argsort(np.where(np.isnan(b.angular_speed), np.inf, b.angular_speed))),
         heading="mode",
     )
     angular_speed: Field[Floats] = Field(
-        "Speed of each mode, rad/s, shape (2,); NaN if it is no oscillation of finite period.",
+        "Speed of each mode, rad/s, shape (2,); NaN if it falls.",
         lambda b: _speeds(np.asarray(b.conical_height), b.gravity),
         heading="speed",
         unit="rad/s",
@@ -82,32 +79,29 @@ class BellAndClapper(
         "Revolutions per minute, shape (2,).", lambda b: b.angular_speed * (30 / math.pi), heading="speed", unit="rpm"
     )
     conical_height: Field[Floats] = Field(
-        "Conical height of each mode, m, shape (2,); negative if the motion does not swing but falls. If one mode swings "
-        "and the other falls, the first is the one that swings. Else both bodies lean the same way in the first mode, and "
-        "opposite ways in the second. If both swing, the first is the slower one, unless the pin of the clapper is above "
-        "the axle.",
+        "Conical height of each mode, m, shape (2,); negative if it does not swing but falls. If one mode falls, it is the "
+        "second. Else the bodies lean the same way in the first mode, and opposite ways in the second.",
         heading="height",
         unit="m",
     )
     inclination_ratio: Field[Floats] = Field(
         "Inclination of the clapper divided by that of the bell in each mode, shape (2,). If the first is 1, both swing "
-        "as one piece in this mode and the bell is silent. In the other mode they never swing as one piece.",
+        "as one piece and the bell is silent.",
         heading="inclination: clapper / bell",
     )
     silent_height: Field[float] = Field(
         "Conical height of the first mode if both swing as one piece, m: the pendulum length of the clapper plus the "
-        "joint, each negative if that body is inverted.",
+        "joint, each negative for an inverted body.",
         fact=True,
     )
     mismatch: Field[float] = Field(
-        "``h1 - (m + 1) l1 - m (a2 - l2)``, m: 0 if both swing as one piece. If one is inverted: "
-        "``h1 - (m + 1) l1 + m (a2 - l2)``. `bell_and_clapper` explains the letters.",
+        "0 if both swing as one piece, in metres: ``h1 - (m + 1) l1 - m (a2 - l2)``, or ``+ m`` if one is inverted. "
+        "`bell_and_clapper` explains the letters.",
         fact=True,
     )
     present: Field[dict[str, float]] = Field(
         "The data: ``clapper_weight``, ``clapper_centroid``, ``clapper_radius_of_gyration``, ``bell_weight``, "
-        "``joint`` (from the axle of the bell to the pin of the clapper), ``bell_centroid``, "
-        "``bell_radius_of_gyration``.",
+        "``joint``, ``bell_centroid``, ``bell_radius_of_gyration``.",
         fact=True,
     )
     inverted: Field[NDArray[np.bool_]] = Field(
@@ -121,10 +115,9 @@ class BellAndClapper(
     def with_ratio(self, ratio: float) -> dict[str, float]:
         """Return the value of each datum that gives the first mode a wanted ratio of inclinations.
 
-        ratio: Inclination of the clapper divided by that of the bell, positive. With 1 the bell is silent. To keep it
-            ringing, choose a ratio far enough from 1.
+        ratio: Inclination of the clapper divided by that of the bell, positive. With 1 the bell is silent.
         returns: The values nearest to the present ones, each with the other data constant; NaN if no value gives the
-            ratio. Only values count that keep the pin on its side of the axle, and the stability of the position of rest.
+            ratio and keeps the pin on its side of the axle and the stability of the position of rest.
         raises: If `ratio` is not positive and finite, or the pin of the clapper is in the axle.
 
         How far below the axle must the pin of the clapper be, so that the clapper swings 1.5 times as far as the bell?
@@ -144,8 +137,8 @@ class BellAndClapper(
     def strike_amplitude(self, clearance: float) -> float:
         """Return the smallest amplitude of the bell at which the clapper reaches its side, for small swings.
 
-        returns: ``clearance / abs(inclination_ratio[0] - 1)``, rad: infinite if both swing as one piece. It is exact
-            in the limit of small swings in the first mode; above half a radian use `first_strike`.
+        returns: ``clearance / abs(inclination_ratio[0] - 1)``, rad, the limit for small swings in the first mode; infinite
+            if both swing as one piece.
         raises: If the clearance is not between 0 and pi / 2.
 
         >>> links = {"mass": [18, 500], "length": [0.65, 0.15], "centroid": [0.52, 0.2]}
@@ -157,32 +150,24 @@ class BellAndClapper(
         apart = abs(float(self.inclination_ratio[0]) - 1)
         return gap / apart if apart else math.inf
 
-    @described("within `error_estimate`, below 1e-11 for 99 of 100 random bells; Taylor series of order 24", "", "0.25 ms")
+    @described("within `error_estimate`, below 1e-11 for 99 of 100 random bells", "", "0.25 ms")
     def first_strike(
         self, clearance: float, *, amplitude: float | None = None, clapper_angle: float | None = None
     ) -> Strike:
         """Return the first blow of the clapper in a swing of the bell.
 
         amplitude: Angle from its lowest position from which the bell is released at rest, rad, 0 to pi. If left out,
-            the bell is rung full circle, as in English towers: it falls from the balance, mouth up, and is followed
-            from 1e-4 rad beside it.
+            the bell is rung full circle: it falls from the balance, mouth up, and is followed from 1e-4 rad beside it.
         clapper_angle: Angle of the clapper from the middle of the bell at the start, towards the lower side, rad, from
-            ``-clearance`` to ``clearance``. At these ends it rests on the side of the bell while the bell pushes it.
-            If left out, it hangs free or rests on the lower side; in a full circle it rests on the trailing side. Without
-            `amplitude` it must be one of the two ends.
+            ``-clearance`` to ``clearance``. If left out, it hangs free or rests on the lower side; in a full circle it
+            rests on the trailing side. Without `amplitude` it must be one of the two ends.
         returns: The first blow up to the next turn of the bell, or the status if there is none.
-        raises: If the clearance is not between 0 and pi / 2, or an angle is out of its range; if one of bell and
-            clapper is inverted and there is no amplitude.
-        notes: Bell and clapper are a double pendulum in a plane, without friction, rope or stay; the headstock is
-            stiff. The clapper rests on the side of the bell while the bell pushes it, then flies free. Bounces after
-            the first blow are not computed, because they depend on the metals. Angles of the bell count from its
-            lowest position, whether it is inverted or not. If one of the two bodies is inverted, the clapper points
-            the other way in the middle of the bell: a bell with its centre of gravity above the axle is mouth down at
-            the angle pi.
+        raises: If an angle is out of its range, or if one of bell and clapper is inverted and there is no amplitude.
+        notes: Bell and clapper are a double pendulum in a plane, without friction, rope or stay. The clapper rests on the
+            side of the bell while the bell pushes it, then flies free. Angles of the bell count from its lowest position,
+            also if it is inverted: a bell with its centre of gravity above the axle is mouth down at the angle pi.
             The design charts of Woodhouse et al. (2012), doi:10.1155/2012/681787, use the same model for a bell much
-            heavier than its clapper: the result then depends on ``joint / l1`` and ``l2 / l1`` only. If
-            ``l2 = l1 + joint``, a clapper that hangs in the middle stays there. For any weights that condition is
-            `mismatch` = 0, Greenhill (1908), section 8 (16).
+            heavier than its clapper.
 
         >>> links = {"mass": [18, 500], "length": [0.65, 0.15], "centroid": [0.52, 0.2]}
         >>> bell = rc.bell_and_clapper(rc.Chain(**links, radius_of_gyration=[0.08, 0.3]))
@@ -237,25 +222,20 @@ def bell_and_clapper(
 ) -> BellAndClapper:
     """Return the modes of a bell and its clapper, and how far they are from swinging as one piece.
 
-    chain: Two links, both with weight: the clapper, and above it the bell. The length of the bell is the distance
-        from its axle to the pin of the clapper; the length of the clapper has no effect.
-    joint: Distance of the clapper's pin below the axle, m, instead of the length of the bell; negative above the axle, 0 in
-        it: then each swings alone.
+    chain: Two links with weight: the clapper, and above it the bell. The length of the bell is the distance from its axle
+        to the pin of the clapper; the length of the clapper has no effect.
+    joint: Distance of the clapper's pin below the axle, m, instead of the length of the bell; negative above the axle.
     inverted: Whether clapper and bell stand on their upper pins in the position of rest, one for both or one for each.
-        Their data are those of the hanging bodies. A bell with its centre of gravity 5 cm above the axle is inverted,
-        with ``centroid`` 0.05 and the opposite sign of `joint`.
+        A bell with its centre of gravity 5 cm above the axle is inverted, with ``centroid`` 0.05 and the opposite sign
+        of `joint`.
     returns: Heights, ratios of inclinations, and how they change with the data.
-    raises: If the chain does not have two links with weight, or `gravity` is not positive, or `inverted` has not one or
-        two truth values. A TypeError if `chain` is not a `Chain`.
+    raises: If the chain does not have two links with weight, or an argument is out of its range.
     notes: The ratio r of the inclination of the clapper to that of the bell is a root of
-        ``h1 r^2 - ((m + 1) l1 - m l2 - a2) r - (m + 1) a2 = 0``. One root is positive and one negative, unless
-        ``(m + 1) a2`` is negative: then one mode swings, the other falls. The clapper has the centroid h1 and the
-        pendulum length l1, the bell h2 and l2. The joint is a2, and m = W2 h2 / (W1 a2), with the weights W1 and W2. The
-        conical height is ``l1 + a2 / r``. An inverted clapper changes the sign of l1 in the height, an inverted bell
-        that of a2. If one of the two is inverted, the equation is
-        ``h1 r^2 - (m + 1) l1 r - (m l2 + a2) r + (m + 1) a2 = 0``; of bodies that
-        both hang otherwise, one mode then swings, the other falls. All this holds for small inclinations, and for any
-        inclination if both swing as one piece.
+        ``h1 r^2 - ((m + 1) l1 - m l2 - a2) r - (m + 1) a2 = 0``, or, if one of the two is inverted, of
+        ``h1 r^2 - (m + 1) l1 r - (m l2 + a2) r + (m + 1) a2 = 0``. The clapper has the centroid h1 and the pendulum length
+        l1, the bell h2 and l2. The joint is a2, and m = W2 h2 / (W1 a2), with the weights W1 and W2. The conical height is
+        ``l1 + a2 / r``; an inverted clapper changes the sign of l1, an inverted bell that of a2. This holds for small
+        inclinations, and for any inclination if both swing as one piece.
 
     For this bell the ratio grows with the distance of its centre of gravity below the axle:
 
@@ -268,8 +248,7 @@ def bell_and_clapper(
     >>> rc.bell_and_clapper(chain, joint=-0.03).angular_speed.round(5)
     array([4.29499, 3.87118])
 
-    The centre of gravity of the bell 20 cm above its axle, the clapper's pin 15 cm below it. Mouth down the bell falls,
-    and only the clapper swings:
+    The centre of gravity of the bell 20 cm above its axle, the clapper's pin 15 cm below it: the bell falls.
 
     >>> rc.bell_and_clapper(chain, joint=-0.15, inverted=[False, True]).angular_speed.round(5)
     array([4.29946,     nan])

@@ -3,8 +3,8 @@
 # The decorator of table.py gives each function its body, a call of the compiled formula, and completes its docstring.
 """The conical pendulum: height, speed, period and gravity from one another.
 
-The conical height is ``gravity / angular_speed**2``: the depth of the circling weight below its support, for a thread
-of any greater length. Source: Greenhill (1908), section 1; numbers in brackets are its equations.
+The conical height is ``gravity / angular_speed**2``, the depth of the circling weight below its support.
+Source: Greenhill (1908), section 1; numbers in brackets are its equations.
 """
 
 from __future__ import annotations
@@ -82,8 +82,7 @@ def gravity(length: ArrayLike, period: ArrayLike = 2.0) -> FloatOrArray:
     """Return the gravity that gives a simple pendulum its period, ``4 pi**2 length / period**2``.
 
     length: Length of the pendulum
-    period: Period of small swings (there and back) in s, positive. The period is 2 s if left out: such a pendulum beats
-        seconds, and the paper gives its length in London as 39.1396 inches.
+    period: Period of small swings (there and back) in s, positive; 2 s if left out, for a pendulum that beats seconds.
     returns: Gravity in the unit of `length` per s^2.
 
     >>> rc.conical_pendulum.gravity([0.99396, 39.1396]).round(4)

@@ -1,15 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Jacobi's elliptic functions near modulus 1, where ``scipy.special.ellipj`` loses all digits.
+"""Jacobi's elliptic functions, accurate also near modulus 1.
 
-Near ``modulus = 1`` give ``complementary_modulus = sqrt(1 - modulus**2)``: it cannot be computed accurately from a
-rounded modulus. `scipy.special.ellipj` takes the parameter ``m = modulus**2``. Within a period, its errors are below
-1e-14 for complementary moduli above 0.1; at 1e-3 they reach 1e-11; below 1e-6 no digit of cn and dn is correct beyond
-half the period.
-
-SciPy has the elliptic integrals. With ``c`` the complementary modulus, write ``ellipkm1(c**2)`` for the complete
-integral K, ``ellipe((1 - c) * (1 + c))`` for E, and the forms of Carlson (`elliprf`, `elliprd`, `elliprj`; DLMF 19.25)
-for incomplete integrals and those of the third kind, whose characteristic far below 0 must first be changed (DLMF
-19.7(iii)).
+Near ``modulus = 1`` give ``complementary_modulus = sqrt(1 - modulus**2)``: a rounded modulus does not determine it well.
+`scipy.special.ellipj` takes the parameter ``m = modulus**2``. SciPy has the elliptic integrals: with ``c`` the
+complementary modulus, ``ellipkm1(c**2)`` is the complete integral K and ``ellipe((1 - c) * (1 + c))`` is E.
 """
 
 from __future__ import annotations
@@ -49,11 +43,11 @@ class Jacobi(NamedTuple):
     cost="0.07 microseconds for each number",
 )
 def jacobi(u: ArrayLike, *, modulus: float | None = None, complementary_modulus: float | None = None) -> Jacobi:
-    """Return Jacobi's elliptic functions for one modulus; give exactly one of the modulus and its complement.
+    """Return Jacobi's elliptic functions for one modulus; give the modulus or its complement.
 
     returns: Arrays with the shape of `u`.
-    raises: If a number is out of its range, or not exactly one of the moduli is given.
-    notes: Method: theta series of the smaller nome, DLMF 20.2, 22.2.
+    raises: If a number is out of its range, or both or none of the moduli are given.
+    notes: Method: theta series, DLMF 20.2, 22.2.
 
     >>> f = rc.elliptic.jacobi(1.0, modulus=0.6)
     >>> round(float(f.sn), 12), round(float(f.cn**2 + f.sn**2), 12)

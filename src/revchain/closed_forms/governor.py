@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Centrifugal governors with a sleeve: Watt's, Porter's, Hartnell's.
-
-Angles are in radians. Units are SI: masses in kg, forces in N.
+"""Centrifugal governors with a sleeve: Watt's, Porter's, Hartnell's. Units are SI.
 """
 
 from __future__ import annotations
@@ -37,13 +35,13 @@ _IN_WORDS = {
 
 
 class GovernorPoints(NamedTuple):
-    """A governor at one or more inclinations of its arms, from the vertical outwards: downward, Hartnell's upward.
+    """A governor at one or more inclinations of its arms.
 
-    `inclination`: of the arms, rad. `angular_speed`: of equilibrium, rad/s; NaN or infinite if there is none. `low_speed`,
-    `high_speed`: between these friction holds the sleeve; NaN if at no speed. `ball_radius`: distance of the balls from
-    the axis, m. `height`: from the balls up (Hartnell's: down) to where their arms meet the axis, m. `lift`: of the
-    sleeve, from inclination 0, m. `stable`: whether the arms return when disturbed at constant speed. `period`: of small
-    oscillations, s; NaN if they grow.
+    `inclination`: of the arms, rad, outwards from the downward vertical (Hartnell's: upward). `angular_speed`: of
+    equilibrium, rad/s; NaN or infinite if there is none. `low_speed`, `high_speed`: between these friction holds the
+    sleeve. `ball_radius`: distance of the balls from the axis, m. `height`: from the balls up (Hartnell's: down) to where
+    their arms meet the axis, m. `lift`: of the sleeve, from inclination 0, m. `stable`: whether the arms return when
+    disturbed at constant speed. `period`: of small oscillations, s; NaN if they grow.
     """
 
     inclination: FloatOrArray
@@ -60,8 +58,8 @@ class GovernorPoints(NamedTuple):
 class GovernorEffort(NamedTuple):
     """The effort and power of a governor at a change of speed.
 
-    `effort`: mean force at the sleeve while it is lifted, N. `lift`: of the sleeve to its new position, m; NaN if there
-    is none. `power`: effort times lift, J.
+    `effort`: mean force at the sleeve, N. `lift`: of the sleeve to its new position, m; NaN if there is none. `power`:
+    effort times lift, J.
     """
 
     effort: float
@@ -137,9 +135,9 @@ def _speed(name: str) -> Any:
 
 @described(cost="0.1 microseconds for each point, 0.2 ms for the equilibria at a speed", source="section 7")
 class SleeveGovernor(Solved, row="point"):
-    """A governor whose balls lift a sleeve on a turning shaft, at any inclination of its arms.
+    """A governor whose balls lift a sleeve on a turning shaft.
 
-    With only ball and arm it is a conical pendulum, or several.
+    With only balls and arms it is a conical pendulum.
 
     ball_mass: Mass of each ball, kg
     arm: Distance from the pivot of an arm to its ball, m
@@ -154,14 +152,12 @@ class SleeveGovernor(Solved, row="point"):
     spring_stiffness: Stiffness of a spring that presses the sleeve down, N/m
     spring_force: Force of that spring at inclination 0, N
     friction: Force with which the sleeve resists, either way, N
-    shaft_inertia: Moment of inertia of a shaft that turns freely, kg m^2; infinite: its speed is held
+    shaft_inertia: Moment of inertia of a shaft that turns freely, kg m^2; infinite: its speed is constant
     lowest_inclination: Inclination at the lower stop, rad, or a text such as "25 deg"
     highest_inclination: Inclination at the upper stop
-    raises: If a number is out of its range or, but for `shaft_inertia`, not finite; if both `lower_arm` and `sleeve_arm`
-        are given, lower links do not reach the sleeve, or the arms do not reach a stop; if a sleeve, spring or friction
-        has neither to act through; if only one stop is given.
-    notes: The speeds follow from the energies: n^2 = 2 V'/J'. Accuracy, measured against the forces in the links on 10,000
-        random governors: 1e-12 of the square of the speed.
+    raises: If a number is out of its range, the parts do not fit together, the arms do not reach a stop, or only one stop
+        is given.
+    notes: Accuracy, measured against the forces in the links on 10,000 random governors: 1e-12 of the square of the speed.
 
     >>> import math
     >>> watt = rc.SleeveGovernor(ball_mass=4.0, arm=1.4, lower_arm=1.4, sleeve_mass=3.0, gravity=12.0)
@@ -224,10 +220,10 @@ class SleeveGovernor(Solved, row="point"):
 
     @described()
     def at(self, inclination: ArrayLike) -> GovernorPoints:
-        """Return speeds, places and periods at given inclinations.
+        """Return speeds, positions and periods at given inclinations.
 
         inclination: Inclinations of the arms, rad, or texts such as "30 deg", any shape
-        raises: If an inclination is not within pi / 2, or the links cannot reach it.
+        raises: If the arms cannot reach an inclination.
 
         >>> porter = rc.SleeveGovernor(ball_mass=2.3, arm=0.33, lower_arm=0.33, sleeve_mass=9.5122, gravity=9.81)
         >>> round(float(porter.at("27 deg").angular_speed) * 30 / 3.141592653589793, 4)
@@ -240,14 +236,13 @@ class SleeveGovernor(Solved, row="point"):
 
     @described()
     def equilibria(self, angular_speed: float) -> GovernorEquilibria:
-        """Return all equilibria at a speed, by inclination, whatever the stops.
+        """Return all equilibria at a speed in the order of inclination, also beyond the stops.
 
-        Inclinations are below a right angle, and the balls on their own side of the axis. Intervals prove that there are
-        no others.
+        Inclinations are below a right angle with the balls on their own side of the axis. The list is proved complete.
 
         angular_speed: Speed of the shaft in rad/s, or a text such as "300 rpm"; not negative.
-        returns: A sequence of `GovernorPoints`, whose `angular_speed` is the given one, with a table and a picture.
-        raises: If the speed is negative or above 1e100, or intervals cannot prove that there are no others.
+        returns: A sequence of `GovernorPoints`.
+        raises: If the speed is out of its range, or the list cannot be proved complete.
 
         >>> pendulum = rc.SleeveGovernor(ball_mass=1.0, arm=1.0, gravity=9.81)
         >>> [(round(float(at.inclination), 4), at.stable) for at in pendulum.equilibria(4.0)]
@@ -289,8 +284,7 @@ class SleeveGovernor(Solved, row="point"):
 
         inclination: Inclination of the arms, rad
         change: Fraction by which the speed rises
-        raises: If the governor has no sleeve, or no equilibrium at the inclination at a speed above 0, or `change` is not
-            positive.
+        raises: If the governor has no sleeve, or no equilibrium at the inclination, or `change` is not positive.
 
         >>> porter = rc.SleeveGovernor(ball_mass=2.3, arm=0.33, lower_arm=0.33, sleeve_mass=9.5122, gravity=9.81)
         >>> answer = porter.effort("27 deg")

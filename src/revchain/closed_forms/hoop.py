@@ -3,8 +3,7 @@
 # The decorator of table.py gives each function its body, a call of the compiled formula, and completes its docstring.
 """An endless chain that runs in a circle (the rim of a wheel, a tyre), and the nearly straight whirling string.
 
-A tension is given as the length of chain of equal weight. Source: Greenhill (1908), section 5; numbers in brackets
-are its equations.
+Source: Greenhill (1908), section 5; numbers in brackets are its equations.
 """
 
 from __future__ import annotations
@@ -47,10 +46,8 @@ def tension(speed: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> FloatOrA
 def speed(tension: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> FloatOrArray:
     """Return the speed that gives a rim a tension, ``sqrt(gravity * tension)``.
 
-    The breaking length gives the speed at which the rim bursts.
-
-    returns: Speed along the rim. It is also the speed of transverse waves on a string under that tension, and the speed
-        after a fall through half the length `tension`.
+    The breaking length gives the speed at which the rim bursts. Transverse waves on a string under that tension have the
+    same speed.
 
     A tyre of steel wire with a breaking length of 27 km:
 
@@ -61,7 +58,7 @@ def speed(tension: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> FloatOrA
 
 @closed_form(_core.hoop_wave_speeds, "exact", "section 5 (6)")
 def wave_speeds(speed: ArrayLike) -> WaveSpeeds:
-    """Return the speeds in space of both transverse waves on a rim; relative to the rim both have its speed.
+    """Return the speeds in space of both transverse waves on a rim.
 
     >>> float(rc.hoop.wave_speeds(20.0).running)
     40.0
@@ -75,7 +72,7 @@ def string_revolutions_per_second(
     """Return the turns per second of a nearly straight string that whirls in one half wave.
 
     span: Distance between the ends (twice the paper's ``a``)
-    returns: ``sqrt(gravity * tension) / (2 * span)``. Planar vibrations have the same frequency.
+    returns: ``sqrt(gravity * tension) / (2 * span)``.
 
     >>> round(float(rc.hoop.string_revolutions_per_second(2.0, tension=10.0, gravity=10.0)), 6)
     2.5

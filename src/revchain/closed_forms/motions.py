@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Motions that a constructor computes from numbers: carriages at a buffer stop, a governor, ropes that whirl.
+"""Motions of carriages at a buffer stop, of a governor, and of ropes that whirl.
 
-Angles are in radians. The tension of a rope is given as the length of rope of equal weight, and its lengths are in the
-unit of length of `gravity`. Source: Greenhill (1908): carriages section 2, ropes section 5, the governor section 7.
+Angles are in radians. Lengths of ropes are in the unit of length of `gravity`. Source: Greenhill (1908): carriages
+section 2, ropes section 5, the governor section 7.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class Blow(NamedTuple):
 
 
 class CarriageState(NamedTuple):
-    """Displacements of both carriages towards the buffer since time 0, their speeds, the buffer force (0 if apart)."""
+    """Displacements of both carriages towards the buffer since time 0, their speeds, and the buffer force."""
 
     front: FloatOrArray
     rear: FloatOrArray
@@ -47,16 +47,14 @@ class CarriageState(NamedTuple):
 class BufferImpact(Solved):
     """The motion of two carriages that run against a buffer stop.
 
-    In contact, the carriages oscillate as a double pendulum of two point masses does. The buffer pushes and never
-    pulls. Units: any consistent set.
+    The buffer pushes but does not pull. Units: any consistent set.
 
     speed: Speed of both carriages towards the buffer at time 0, when the front one touches it
     raises: If a number is not positive and finite, or there are more than 100,000 blows.
     notes: Accuracy for up to 50 blows, measured against integration, if none only grazes the buffer: positions to 1e-13
         of speed times time, speeds to 1e-13 of the speed and of acceleration times time, times to 1e-13 of the last time.
-        Errors grow with the number of blows: times of 270 are within 2e-12. Cost: 10
-        microseconds, 1 more for each blow, and 0.05 for each state. Carriages of about equal mass give one or two
-        blows; a rear carriage that is 10,000 times as heavy can give a thousand.
+        Errors grow with the number of blows: times of 270 are within 2e-12. Cost: 10 microseconds, 1 more for each blow,
+        and 0.05 for each state.
 
     >>> rc.BufferImpact(front_mass=1, rear_mass=1, buffer_stiffness=4, coupling_stiffness=0.5, speed=1)
     BufferImpact: 2 blows
@@ -109,15 +107,13 @@ class GovernorState(NamedTuple):
 class GovernorMotion(Solved, row="motion", title="GovernorMotion: {self.regime}"):
     """The motion of a link hinged on a turning axis.
 
-    angular_speed: Speed of the axis, rad/s; 0 for a pendulum that does not turn.
+    angular_speed: Speed of the axis, rad/s; 0 for a plane pendulum.
     pendulum_length: Length of the equivalent simple pendulum about the hinge
     gravity: Acceleration of gravity; negative for an inverted axis.
-    raises: If a number is not finite, `pendulum_length` is not positive, or `axial_inertia` is not from 0 to 1; if
-        numbers are so far apart, by a factor of 1e150 or more, that no digit of the motion would be correct.
+    raises: If a number is out of its range, or the numbers are too far apart for the motion to be computed.
     notes: Accuracy, measured against integration in quadruple precision: angles to 1e-13 of the greatest angle and of
         ``t`` times the greatest rate; rates to 1e-13 of the greatest rate and of ``t`` times the greatest
-        acceleration. After 1e13 periods the phase is lost. Close to a motion that never returns, the rounding of
-        the start to double limits the accuracy.
+        acceleration. Close to a motion that never returns, the rounding of the start to double limits the accuracy.
 
     >>> swing = rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5)
     >>> swing.regime, round(swing.period, 4), round(swing.least_angle, 4)
@@ -130,7 +126,7 @@ class GovernorMotion(Solved, row="motion", title="GovernorMotion: {self.regime}"
         heading="",
     )
     period: Field[float] = Field(
-        "Period of the motion (of one turn if it revolves), s; infinite if it never returns, 0 at rest.",
+        "Period of the motion (of one turn if it revolves), s; infinite if it does not return, 0 at rest.",
         heading="period",
         unit="s",
     )
@@ -142,7 +138,7 @@ class GovernorMotion(Solved, row="motion", title="GovernorMotion: {self.regime}"
     )
     modulus: Field[float] = Field("Modulus of the elliptic functions.", heading="modulus")
     complementary_modulus: Field[float] = Field(
-        "Complementary modulus; it is more accurate than the modulus near motions that never return.", heading=""
+        "Complementary modulus of the elliptic functions.", heading=""
     )
     _solver = _core.GovernorMotion
 
@@ -181,9 +177,8 @@ class TortuousPoints(NamedTuple):
     """Points of a tortuous rope.
 
     `x`, `arc`: distances along the axis and along the rope from the point nearest to the axis. `radius`: distance from
-    the axis. `angle`: angle round the axis; for the plane rope 0 at ``x = 0``, pi/2 up to the next crossing of the
-    axis, and pi more after each. `radius_slope`, `angle_slope`: ``d radius / dx``, ``d angle / dx``. `tension_ratio`:
-    tension divided by its component along the axis.
+    the axis. `angle`: angle round the axis, 0 at ``x = 0``. `radius_slope`, `angle_slope`: ``d radius / dx``,
+    ``d angle / dx``. `tension_ratio`: tension divided by its component along the axis.
     """
 
     x: FloatOrArray
@@ -199,15 +194,13 @@ class TortuousPoints(NamedTuple):
 class SkippingRope(Solved, row="rope", title="SkippingRope: {self._waves}"):
     """A rope that whirls between two points of the axis without gravity: ``offset = sag sn(K x/a)``.
 
-    Give two of five data: `span`, `length`, `slack`, `sag`, and the pair of `tension` and `angular_speed`. To two of
-    the first four you may add one of `tension` and `angular_speed`.
+    Give two of `span`, `length`, `slack` and `sag`, with or without one of `tension` and `angular_speed`; or give one of
+    the four with both `tension` and `angular_speed`.
 
     length: Length of the whole rope
     tension: Tension in the middle of a half wave, as the length of rope of equal weight
     gravity: Acceleration of gravity, which only relates weight to mass (standard gravity in m/s^2 if left out)
-    raises: If a number is not positive and finite, if too few or too many are given, or if no rope has them: the length
-        does not exceed span or slack, the sag is not below half the length of a half wave, the slack is not below twice
-        the sag per half wave, or no rope bends so at this speed and tension.
+    raises: If a number is not positive and finite, too few or too many are given, or no rope has them.
     notes: Cost: 10 microseconds, and for each point 0.07 by `at` or 0.5 by `at_arc`.
 
     >>> rope = rc.SkippingRope(span=2.0, length=3.0, angular_speed=12.0)
@@ -218,37 +211,37 @@ class SkippingRope(Solved, row="rope", title="SkippingRope: {self._waves}"):
     """
 
     __slots__ = ()
-    has_speed: Field[bool] = Field("Whether angular speed or tension was given; both are then known.")
+    has_speed: Field[bool] = Field("Whether angular speed or tension was given.")
     angular_speed: Field[float] = Field(
-        "Turning speed, rad/s; a ValueError if neither speed nor tension was given.", heading="speed", unit="rad/s"
+        "Speed, rad/s; a ValueError unless `has_speed`.", heading="speed", unit="rad/s"
     )
     conical_height: Field[float] = Field(
-        "Conical height of the speed; a ValueError if the speed raises one.", heading=""
+        "Conical height of the speed; a ValueError unless `has_speed`.", heading=""
     )
     tension_in_the_middle: Field[float] = Field(
-        "Tension in the middle of a half wave; a ValueError if the speed raises one.", heading="tension: middle"
+        "Tension in the middle of a half wave; a ValueError unless `has_speed`.", heading="tension: middle"
     )
     tension_at_ends: Field[float] = Field(
-        "Tension at every node; a ValueError if the speed raises one.", heading="at ends"
+        "Tension at the nodes; a ValueError unless `has_speed`.", heading="at ends"
     )
     half_waves: Field[int] = Field("Number of half waves between the ends.")
     span: Field[float] = Field("Distance between the ends.", heading="span")
     length: Field[float] = Field("Length of the rope.", heading="length")
-    slack: Field[float] = Field("``length - span``, computed without that difference.", heading="")
+    slack: Field[float] = Field("``length - span``, without cancellation.", heading="")
     sag: Field[float] = Field("The largest offset.", heading="sag")
-    slope_at_ends: Field[float] = Field("Tangent of the angle between rope and axis at every node.", heading="")
+    slope_at_ends: Field[float] = Field("Tangent of the angle between rope and axis at the nodes.", heading="")
     tension_ratio_at_ends: Field[float] = Field(
         "Tension at a node divided by that in the middle of a half wave.", heading=""
     )
     height_times_tension: Field[float] = Field(
-        "Conical height times tension in the middle; with span and number of half waves it determines the shape.", heading=""
+        "Conical height times tension in the middle.", heading=""
     )
     moment_of_inertia: Field[float] = Field(
         "Moment of inertia about the axis, divided by the mass per length.", heading=""
     )
     modulus: Field[float] = Field("``sag / sqrt(4 height_times_tension + sag**2)``.", heading="")
     complementary_modulus: Field[float] = Field(
-        "Complementary modulus; it is more accurate than the modulus if the rope is mostly radial.", heading=""
+        "Complementary modulus of the elliptic functions.", heading=""
     )
     _solver = _core.SkippingRope
     _optional = ("span", "length", "slack", "sag", "angular_speed", "tension")
@@ -288,9 +281,9 @@ class SkippingRope(Solved, row="rope", title="SkippingRope: {self._waves}"):
     def drawn_to(self, span: float) -> SkippingRope:
         """Return the rope with another span but equal length and angular momentum.
 
-        span: The new span, positive, less than the length. The rope must have a speed (`has_speed`).
-        returns: The new rope. The work of drawing it there, over the mass per length, is the gain in
-        ``moment_of_inertia * angular_speed**2 / 2``.
+        span: The new span, positive, less than the length.
+        returns: The new rope.
+        raises: If the rope has no speed, or the span is out of its range.
 
         >>> rope = rc.SkippingRope(span=2.0, length=3.0, angular_speed=12.0)
         >>> round(rope.drawn_to(2.5).angular_speed, 4)
@@ -318,9 +311,7 @@ class SkippingRope(Solved, row="rope", title="SkippingRope: {self._waves}"):
 class TortuousRope(
     Solved, row="rope", title="TortuousRope: {self._given[angular_speed]:g} rad/s, tension {self._given[tension]:g}"
 ):
-    """A rope that whirls and winds round the axis without gravity; its ends are off the axis.
-
-    The angle is an elliptic integral of the third kind.
+    """A rope that whirls and winds round the axis without gravity.
 
     least_radius: Smallest distance of the rope from the axis; 0 gives the plane rope, `greatest_radius` a helix.
     tension: Component of the tension along the axis, as the length of rope of equal weight
@@ -336,20 +327,20 @@ class TortuousRope(
     least_radius: Field[float] = Field("Least distance from the axis.", heading="least radius")
     greatest_radius: Field[float] = Field("Greatest distance from the axis.", heading="greatest radius")
     half_wave: Field[float] = Field(
-        "Distance along the axis between two successive points nearest to the axis.", heading="half wave"
+        "Distance along the axis between successive points nearest to the axis.", heading="half wave"
     )
     half_wave_length: Field[float] = Field(
-        "Length of the rope between two successive points nearest to the axis.", heading="its length"
+        "Length of the rope in a half wave.", heading="its length"
     )
     half_wave_slack: Field[float] = Field(
-        "``half_wave_length - half_wave``, computed without that difference.", heading=""
+        "``half_wave_length - half_wave``, without cancellation.", heading=""
     )
     half_wave_angle: Field[float] = Field(
         "Angle round the axis in a half wave, rad; pi for the plane rope.", heading="its angle", unit="rad"
     )
     conical_height: Field[float] = Field("Conical height of the speed.", heading="")
     height_times_tension: Field[float] = Field(
-        "Conical height times tension; with both radii it determines the shape.", heading=""
+        "Conical height times tension.", heading=""
     )
     modulus: Field[float] = Field("Modulus of the elliptic functions.", heading="")
     complementary_modulus: Field[float] = Field("Complementary modulus of the elliptic functions.", heading="")
@@ -365,7 +356,7 @@ class TortuousRope(
     def at(self, x: ArrayLike) -> TortuousPoints:
         """Return points of the rope by their distance along the axis.
 
-        x: Distances along the axis from a point nearest to the axis, positive or negative, finite, any shape
+        x: Distances along the axis from a point nearest to the axis, finite, any shape
 
         >>> rope = rc.TortuousRope(least_radius=0.5, greatest_radius=1.0, angular_speed=5.0, tension=2.0)
         >>> rope.at([0.0, rope.half_wave / 2]).radius.round(12)

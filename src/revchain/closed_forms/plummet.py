@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # mypy: disable-error-code="empty-body"
 # The decorator of table.py gives each function its body, a call of the compiled formula, and completes its docstring.
-"""One point mass (the paper's plummet) on threads: circling at any inclination, held by a second thread, carried round.
+"""One point mass (the paper's plummet) on threads.
 
-All lengths are in one unit; tensions are divided by the weight; angles are in radians. Source: Greenhill (1908),
-section 1; numbers in brackets are its equations.
+Tensions are divided by the weight; angles are in radians. Source: Greenhill (1908), section 1; numbers in brackets are
+its equations.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class InclinedPendulum(NamedTuple):
 class HeldPlummet(NamedTuple):
     """A point mass on two threads tied to the axis: radius, depth below the upper tie, tensions, and which are taut.
 
-    A slack thread has tension 0; the mass then circles on the other thread or hangs from it.
+    A slack thread has tension 0.
 
     Examples
     --------
@@ -95,7 +95,7 @@ def inclined_pendulum(length: ArrayLike, height: ArrayLike) -> InclinedPendulum:
 def held_plummet(
     upper_thread: ArrayLike, lower_thread: ArrayLike, distance: ArrayLike, height: ArrayLike
 ) -> HeldPlummet:
-    """Return the steady motion of a point mass on two threads: the lower one limits the radius.
+    """Return the steady motion of a point mass on two threads tied to the axis.
 
     returns: With D the depth at which both threads are straight, the lower thread is slack if ``height >= D``, and the
         upper one if ``height <= D - distance``.
@@ -112,7 +112,7 @@ def held_plummet(
 
 @closed_form(_core.air_resistance, "0.5 ulp", "section 1 (8)")
 def air_resistance(arm: ArrayLike, height: ArrayLike) -> FloatOrArray:
-    """Return the air resistance of the mass of a whirling machine divided by its weight, ``arm / height``.
+    """Return the air resistance of a mass on a whirling machine divided by its weight, ``arm / height``.
 
     >>> float(rc.plummet.air_resistance(arm=0.1, height=0.5))
     0.2
@@ -124,7 +124,7 @@ def whirling_thread(arm: ArrayLike, height: ArrayLike, radius: ArrayLike) -> Flo
     """Return the thread of a whirling machine whose arm is perpendicular to the plane of axis and mass.
 
     radius: Radius of the circle of the mass
-    returns: Length of the thread, ``sqrt(arm**2 + height**2 + radius**2)``.
+    returns: ``sqrt(arm**2 + height**2 + radius**2)``.
 
     >>> float(rc.plummet.whirling_thread(arm=1.0, height=2.0, radius=2.0))
     3.0
@@ -137,8 +137,7 @@ def carried_response(length: ArrayLike, height: ArrayLike) -> FloatOrArray:
 
     The support moves in a circle or to and fro; `height` is the conical height of that motion.
 
-    returns: ``height / (height - length)`` for small inclinations. It is infinite at resonance and negative (in
-        antiphase) above the resonant speed.
+    returns: ``height / (height - length)`` for small inclinations: infinite at resonance, negative (in antiphase) above.
 
     >>> rc.plummet.carried_response(1.0, [3.0, 1.5, 0.5])
     array([ 1.5,  3. , -1. ])

@@ -14,7 +14,7 @@ from ..systems.numbers import as_length, count, floats, numbers, real
 
 
 class Solved(Result):
-    """A result whose constructor computes it from numbers; two are equal if the numbers given are equal.
+    """A result whose constructor computes it from numbers.
 
     In a subclass `_solver` is the compiled class that computes the result, and `_optional` are the arguments that may
     be None. The table has one row, unless a subclass writes another.

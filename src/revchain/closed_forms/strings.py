@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Weights and links in a row under tension: the funicular polygon, its small oscillations, Thomson's gyrostatic string.
 
-The gyrostatic string is a row of links with flywheels, in which the plane of vibration turns. Source: Greenhill (1908),
-sections 3 and 8.
+Source: Greenhill (1908), sections 3 and 8.
 """
 
 from __future__ import annotations
@@ -65,8 +64,7 @@ class TransverseModes(Result, row="mode", title="TransverseModes: {_many}"):
         "Proved bound of the relative error of each conical height, shape (n,).", heading="error bound"
     )
     shape: Field[Floats] = Field(
-        "Offsets of the first support, the weights and the last support, shape (n, n + 2). The largest size is 1; the "
-        "offset of the first weight is not negative.",
+        "Offsets of the first support, the weights and the last support, shape (n, n + 2); the largest size is 1.",
         axes=("point",),
     )
 
@@ -95,12 +93,11 @@ class FunicularPolygon(Result):
     position: Field[Floats] = Field("Positions of supports and weights along the horizontal, shape (n + 2,).")
     height: Field[Floats] = Field("Heights of supports and weights, shape (n + 2,).")
     rise: Field[Floats] = Field(
-        "Vertical component of the tension of each side, shape (n + 1,). In the force diagram the ray of a side runs "
-        "from the pole to ``(horizontal_tension, rise)`` on the load line.",
+        "Vertical component of the tension of each side, shape (n + 1,).",
     )
     tension: Field[Floats] = Field("Tension of each side, shape (n + 1,).")
     horizontal_tension: Field[float] = Field(
-        "Horizontal component of the tension, equal in all sides: the distance of the pole from the load line.",
+        "Horizontal component of the tension, equal in all sides.",
     )
 
     @described()
@@ -108,9 +105,9 @@ class FunicularPolygon(Result):
         """Return the small oscillations of the weights perpendicular to the plane of the polygon.
 
         returns: Result of `transverse_modes` for the weights, positions and horizontal tension of the polygon.
-        notes: The weights are moved vertically to a horizontal thread of uniform tension, Greenhill (1908), section
-            3. This is exact for small oscillations: a side of length a and tension T has the transverse stiffness
-            T/a, which equals the horizontal tension divided by the horizontal length.
+        notes: The weights are moved vertically to a horizontal thread of uniform tension, Greenhill (1908), section 3. A
+            side of length a and tension T has the transverse stiffness T/a, the horizontal tension over the horizontal
+            length.
 
         >>> line = rc.funicular_polygon([1.0, 1.0], [0.0, 1.0, 2.0, 3.0], horizontal_tension=0.5)
         >>> line.transverse_modes().conical_height.round(6)
@@ -170,7 +167,6 @@ def transverse_modes(
     gravity: Acceleration of gravity, which relates weights to masses (standard gravity in m/s^2 if left out)
     returns: All n modes.
     raises: If a number is out of its range, or there are not two more positions than weights.
-    notes: Method: the modes of a hanging chain with these weights and spacings, stretched by a very great weight.
 
     >>> rc.transverse_modes([1.0, 1.0], [0.0, 1.0, 2.0, 3.0], tension=5.0).shape.round(6)
     array([[ 0.,  1.,  1.,  0.],
@@ -193,9 +189,7 @@ def _string(name: str, weight: ArrayLike, position: ArrayLike) -> tuple[Floats, 
 
 
 class WaveSpeeds(NamedTuple):
-    """Speeds of the two circular waves in rad/s: `forward`, in the direction of a positive momentum, and `backward`.
-
-    The backward speed is negative.
+    """Speeds of two circular waves in rad/s: `forward`, in the direction of a positive momentum, `backward`, negative.
 
     Examples
     --------
@@ -219,11 +213,10 @@ class WaveSpeeds(NamedTuple):
 class GyrostaticString:
     """Equal links jointed in a row under tension, each with a flywheel about its own axis.
 
-    In a circular wave every pin circles about the line with speed n, and each lags its neighbour by a phase:
+    In a circular wave the pins circle about the line with speed n, and each lags its neighbour by a phase:
     ``(T/a + n H/a^2) 4 sin^2(phase/2) = (n^2/g) (W - 4 X sin^2(phase/2))``, where ``X`` is
-    ``W (h (a - h) - rho^2)/a^2``. The spin makes the string stiffer in one direction of rotation and softer in the
-    other. A planar vibration is the sum of two circular waves. Its plane therefore turns along the string, as the plane
-    of polarized light does in a magnetized body.
+    ``W (h (a - h) - rho^2)/a^2``. A planar vibration is the sum of two circular waves; the spin turns its plane along
+    the string.
 
     weight: Weight of a link with its wheel
     length: Distance between the pins of a link
@@ -231,7 +224,7 @@ class GyrostaticString:
     centroid: Distance of the centre of gravity of a link from a pin; the middle if left out.
     radius_of_gyration: Radius of gyration of a link about an axis across the line through its centre of gravity
     gravity: Acceleration of gravity, which relates `weight` to mass (standard gravity in m/s^2 if left out)
-    raises: If a number is out of its range or not finite.
+    raises: If a number is out of its range.
     notes: The model is for small offsets; the weight of the links acts only as inertia.
 
     >>> momentum = 15.0 / 9.80665 * 0.29**2 * 40.0
@@ -262,7 +255,7 @@ class GyrostaticString:
     def phase(self, angular_speed: ArrayLike) -> FloatOrArray:
         """Return the phase by which each pin of a circular wave lags its neighbour.
 
-        angular_speed: Speeds in rad/s, finite, positive or negative.
+        angular_speed: Speeds in rad/s, positive or negative.
         returns: Phase in rad, from 0 to pi.
 
         >>> string = rc.GyrostaticString(weight=9.80665, length=1.0, tension=100.0, momentum=0.0, centroid=1.0)
@@ -275,8 +268,8 @@ class GyrostaticString:
     def attenuation(self, angular_speed: ArrayLike) -> FloatOrArray:
         """Return the logarithmic decrease of the amplitude of a circular wave from link to link.
 
-        angular_speed: Speeds in rad/s, finite, positive or negative.
-        returns: Decrease; 0 if the wave passes without loss.
+        angular_speed: Speeds in rad/s, positive or negative.
+        returns: Decrease; 0 if the wave passes.
 
         >>> string = rc.GyrostaticString(weight=9.80665, length=1.0, tension=100.0, momentum=0.0, centroid=1.0)
         >>> string.attenuation([10.0, 40.0]).round(6)
@@ -288,7 +281,8 @@ class GyrostaticString:
     def angular_speeds(self, phase: ArrayLike) -> WaveSpeeds:
         """Return the speeds of the two circular waves with a given phase from link to link.
 
-        phase: Phase in rad, above 0 and at most pi; other values raise a ValueError.
+        phase: Phase in rad, above 0, not above pi
+        raises: If a phase is out of its range.
 
         >>> string = rc.GyrostaticString(weight=9.80665, length=1.0, tension=100.0, momentum=1.0, centroid=1.0)
         >>> waves = string.angular_speeds([0.5, 1.0])
@@ -301,9 +295,9 @@ class GyrostaticString:
     def plane_rotation(self, angular_speed: ArrayLike) -> FloatOrArray:
         """Return the angle by which the plane of a planar vibration turns from link to link.
 
-        angular_speed: Angular frequency of the vibration, rad/s, positive and finite; other values raise a ValueError.
-        returns: Angle in rad, in the direction of a positive momentum. It is equal for waves that run either way, and
-            NaN if one of the two circular waves does not pass.
+        angular_speed: Angular frequency of the vibration, rad/s
+        returns: Angle in rad, in the direction of a positive momentum; NaN if one of the circular waves does not pass.
+        raises: If a frequency is out of its range.
 
         >>> string = rc.GyrostaticString(weight=9.80665, length=1.0, tension=100.0, momentum=1e-9, centroid=1.0)
         >>> bool(string.plane_rotation(10.0) > 0)

@@ -2,10 +2,9 @@
 """The table of closed forms. Its rows are in other modules: typed functions without a body, decorated by `closed_form`.
 
 The decorator gets the compiled function of the formula, the accuracy and the source. The short docstring has a summary;
-paragraphs; lines ``name: text`` for `returns`, `raises`, `notes` and for arguments that are more special than the
-vocabulary below says (lines that continue a text are indented); examples. `closed_form` checks the arguments, calls the
-formula and writes the docstring with its numpydoc sections. `described` writes the docstring only, of anything that has
-a body of its own.
+paragraphs; lines ``name: text`` for `returns`, `raises`, `notes` and for arguments that the vocabulary below does not
+describe well enough (lines that continue a text are indented); examples. `closed_form` checks the arguments, calls the
+formula and writes the docstring with its numpydoc sections. `described` writes only the docstring.
 """
 
 from __future__ import annotations
@@ -38,7 +37,7 @@ POSITIVE = {
     "centroid": "Distance of the centre of gravity of the link below its upper pin",
     "clapper_centroid": "Distance of the centre of gravity of the clapper below its pin",
     "clapper_weight": "Weight of the clapper",
-    "coupling_stiffness": "Stiffness of the coupling (it pulls and pushes, and is without force at first)",
+    "coupling_stiffness": "Stiffness of the coupling, which pulls and pushes",
     "deflection": "Sideways deflection of the support under the weight of the pendulum",
     "distance": "Distance along the axis from the tie of the upper thread down to that of the lower one",
     "front_mass": "Mass of the front carriage",
@@ -59,7 +58,7 @@ POSITIVE = {
     "rod": "Length of the rod of the upper plummet",
     "sag": "Largest distance of the rope from the axis",
     "seconds_pendulum": "Length of the simple pendulum that beats seconds under this gravity",
-    "slack": "Length of the rope less the span (give it if the two are nearly equal)",
+    "slack": "Length of the rope less the span",
     "span": "Distance between the ends",
     "speed": "Speed along the rim",
     "standing_weight": "Weight of the upper plummet",
@@ -99,8 +98,8 @@ ANY = {
 PICTURES = {  # arguments of the methods that draw
     "ax": "Axes to draw in; a new figure if left out",
     "axes": "Axes to draw in; a new figure if left out",
-    "speed": 'Unit of the speeds: ``"rad/s"``, ``"rpm"``, ``"Hz"`` (turns per second) or ``"s"`` (the period); if left out '
-    "that in which the question was asked.",
+    "speed": 'Unit of the speeds: ``"rad/s"``, ``"rpm"``, ``"Hz"`` (turns per second) or ``"s"`` (the period); if left out, '
+    "that of the question.",
 }
 _RANGES = {", positive.": POSITIVE, ", not negative.": NOT_NEGATIVE, ".": ANY}
 _TYPES = {
@@ -114,7 +113,7 @@ _TYPES = {
 }
 _DRAWN = {"Axes": "The drawing."}
 _NEEDS_MATPLOTLIB = "ImportError\n    If matplotlib is not installed; the message says how to install it."
-_SHAPE = "Arrays have the broadcast shape of the arguments; single numbers give single numbers."
+_SHAPE = "Arrays have the broadcast shape of the arguments."
 _BROADCAST = ", or if the shapes do not broadcast"
 
 FORMS: dict[str, Form] = {}
@@ -122,10 +121,7 @@ FORMS: dict[str, Form] = {}
 
 
 class Form:
-    """A row of the table: the typed function, the formula, the arguments with defaults, and how the answer is made.
-
-    Accuracy, source and cost are in the docstring of the function.
-    """
+    """A row of the table: the typed function, the formula, the arguments with defaults, and how the answer is made."""
 
     def __init__(self, function: Formula, formula: Formula, made: Formula | None) -> None:
         self.name = f"{function.__module__.rpartition('.')[2]}.{function.__name__}"

@@ -4,11 +4,10 @@
 """Closed forms for two links (the double pendulum), or for one link on a support that yields.
 
 For small inclinations the conical heights are the roots of a quadratic, computed without cancellation. Functions named
-``..._shapes`` return all hanging steady shapes (relative equilibria) at any inclination. Lengths and heights are in one
-unit; of two weights only the ratio matters. A plummet is a point mass on a massless thread. A *link* is a rigid body with a
-`centroid`, the distance of its centre of gravity below its upper pin (positive), and a `radius_of_gyration` about the
-centre of gravity (not negative; 0 is a plummet). `height` is the conical height ``gravity / angular_speed**2`` of a
-speed. Source: Greenhill (1908), sections 2, 6 and 8.
+``..._shapes`` return steady shapes (relative equilibria) at any inclination. Of two weights only the ratio matters. A
+plummet is a point mass on a massless thread. A *link* is a rigid body with a `centroid`, the distance of its centre of
+gravity below its upper pin, and a `radius_of_gyration` about the centre of gravity. Source: Greenhill (1908), sections 2,
+6 and 8.
 """
 
 from __future__ import annotations
@@ -68,9 +67,9 @@ class PairShape(Result, row="link", title="PairShape: {_waves}"):
 class SwungLink(NamedTuple):
     """A link that circles below a pin on the axis; angles in rad.
 
-    `inclination`: inclination of the link to the vertical. `reaction`: force at the pin divided by the weight.
-    `reaction_inclination`: inclination of that force. `condition`: relative change of `inclination` divided by the
-    largest relative change of the data, 0 for a vertical link.
+    `inclination`: of the link to the vertical. `reaction`: force at the pin divided by the weight.
+    `reaction_inclination`: of that force to the vertical. `condition`: relative change of `inclination` divided by the
+    relative change of the data.
 
     Examples
     --------
@@ -100,8 +99,6 @@ def two_plummets(
 ) -> Floats:
     """Return both conical heights of the double pendulum: two plummets, one hung from the other.
 
-    Two weights on springs, of stiffness ``W1 / l1`` between them and ``(W1 + W2) / l2`` above, move alike.
-
     returns: The larger (slower) first: Lagrange's ``(x - l1)(x - l2) = W1 l1 l2 / (W1 + W2)``.
 
     >>> rc.two_links.two_plummets(lower_weight=1, lower_thread=1, upper_weight=3, upper_thread=1)
@@ -114,11 +111,10 @@ def two_plummets_from_the_middle(half_length: ArrayLike, x: ArrayLike, weight_ra
     """Return both conical heights of two plummets, given the position of the upper one on the thread.
 
     x: Distance of the upper plummet from the middle, on either side, less than `half_length`
-    weight_ratio: Lower weight divided by upper weight, greater than -1. If negative, the lower body floats in a fluid
-        that turns with it (Stokes's float).
+    weight_ratio: Lower weight divided by upper weight, greater than -1; negative for a body that floats in a fluid that
+        turns with it (Stokes's float).
     returns: The larger (slower) first.
-    raises: If ``abs(x) < half_length * sqrt(-weight_ratio)``: the heights of a float are then complex, and it has no
-        steady motion of small inclination.
+    raises: If ``abs(x) < half_length * sqrt(-weight_ratio)``: the heights of a float are then complex.
 
     >>> rc.two_links.two_plummets_from_the_middle(1.0, 0.5, weight_ratio=0.5).round(6)
     array([1.707107, 0.292893])
@@ -129,8 +125,7 @@ def two_plummets_from_the_middle(half_length: ArrayLike, x: ArrayLike, weight_ra
 def pendulum_length(centroid: ArrayLike, radius_of_gyration: ArrayLike) -> FloatOrArray:
     """Return the length of the simple pendulum with the period of a link.
 
-    returns: ``centroid + radius_of_gyration**2 / centroid``. This is the distance of the centre of oscillation; a pin
-        there gives the same period, unless the link is a plummet.
+    returns: ``centroid + radius_of_gyration**2 / centroid``, the distance of the centre of oscillation.
 
     >>> float(rc.two_links.pendulum_length(2.0, 1.0))
     2.5
@@ -140,8 +135,6 @@ def pendulum_length(centroid: ArrayLike, radius_of_gyration: ArrayLike) -> Float
 @closed_form(_core.share_at_centre_of_oscillation, "2 ulp", "section 6")
 def share_at_centre_of_oscillation(centroid: ArrayLike, radius_of_gyration: ArrayLike) -> FloatOrArray:
     """Return the part of the weight of a link at its centre of oscillation, ``centroid / pendulum_length``.
-
-    The rest of the weight is at the pin (Maxwell's particles).
 
     >>> float(rc.two_links.share_at_centre_of_oscillation(2.0, 1.0))
     0.8
@@ -173,7 +166,6 @@ def link_on_thread(thread: ArrayLike, centroid: ArrayLike, radius_of_gyration: A
     thread: Length of the thread, positive. For a support that yields sideways it is the deflection under the weight,
         see `spring_deflection`.
     returns: The larger (slower) first; the second is 0 for a plummet: ``(x - l)(x - thread) = thread * centroid``.
-    notes: Section 2 adds the deflection of the support to the pendulum length; that is exact only for a plummet.
 
     >>> rc.two_links.link_on_thread(2.0, centroid=1.0, radius_of_gyration=1.0).round(6)
     array([3.414214, 0.585786])
@@ -184,10 +176,9 @@ def link_on_thread(thread: ArrayLike, centroid: ArrayLike, radius_of_gyration: A
 def standing_link(thread: ArrayLike, centroid: ArrayLike, radius_of_gyration: ArrayLike) -> FloatOrArray:
     """Return the conical height of an inverted link that stands on the end of a thread or on a moving hand.
 
-    thread: Length of the thread, positive. A hand must move as the end of such a thread does.
+    thread: Length of the thread, or of one whose end moves as the hand does
     centroid: Distance of the centre of gravity of the link above its lowest point
-    returns: ``x`` in ``(l + x)(thread - x) = thread * centroid``. It is 0, and there is no such motion, for a link
-        without radius of gyration whose centroid is at the thread's length or above.
+    returns: ``x`` in ``(l + x)(thread - x) = thread * centroid``; 0 if there is no such motion.
 
     A broomstick of 1.2 m on a hand that moves like the end of a thread of 1 m:
 
@@ -198,7 +189,7 @@ def standing_link(thread: ArrayLike, centroid: ArrayLike, radius_of_gyration: Ar
 
 @closed_form(_core.thread_of_standing_link, "3 ulp", "section 6 (13)")
 def thread_of_standing_link(height: ArrayLike, centroid: ArrayLike, radius_of_gyration: ArrayLike) -> FloatOrArray:
-    """Return the length of the thread on which a link stands at a conical height: the inverse of `standing_link`.
+    """Return the length of the thread on which a link stands at a conical height, the inverse of `standing_link`.
 
     centroid: Distance of the centre of gravity of the link above its lowest point
 
@@ -213,8 +204,6 @@ def standing_plummet(
 ) -> FloatOrArray:
     """Return the conical height of an inverted plummet that stands above a hanging one on a rigid massless rod.
 
-    The height always exists.
-
     >>> round(float(rc.two_links.standing_plummet(standing_weight=1, rod=1, hung_weight=3, thread=2)), 6)
     1.822876
     """
@@ -222,7 +211,7 @@ def standing_plummet(
 
 @closed_form(_core.spring_deflection, "0.5 ulp", "section 2 (7)")
 def spring_deflection(weight: ArrayLike, stiffness: ArrayLike) -> FloatOrArray:
-    """Return the deflection of a spring under a weight, ``weight / stiffness``: the thread that moves alike.
+    """Return the deflection of a spring under a weight, ``weight / stiffness``.
 
     >>> float(rc.two_links.spring_deflection(10.0, 400.0))
     0.025
@@ -233,11 +222,10 @@ def spring_deflection(weight: ArrayLike, stiffness: ArrayLike) -> FloatOrArray:
     _core.seconds_lost_per_day, "8 ulp for the data as given, also for small losses", "section 2, text after (7)"
 )
 def seconds_lost_per_day(deflection: ArrayLike, centroid: ArrayLike, radius_of_gyration: ArrayLike) -> FloatOrArray:
-    """Return the time that a pendulum clock on a yielding support loses in a day.
+    """Return the seconds that a pendulum clock on a yielding support loses in a day.
 
-    returns: Seconds lost per day by a clock that is right on a firm support.
     notes: A relative error of the data changes the result by up to ``3 + 2 sqrt(l / centroid)`` times as much, with
-        ``l`` the pendulum length: most where the deflection nearly equals ``l``.
+        ``l`` the pendulum length.
 
     A seconds pendulum on a bracket that yields by a thousandth of a millimetre:
 
@@ -259,13 +247,11 @@ def two_plummets_shapes(
     """Return all hanging steady shapes of two plummets at a speed, at any inclination.
 
     returns: All shapes, ordered by half waves, then by the inclination of the lower thread; of two mirror images the
-        one with the lower plummet at a positive offset. The list is proved complete. One shape has both plummets on
-        one side, if `height` is below the first of `two_plummets`; one or three have them on opposite sides, if it is
-        below the second.
+        one with the lower plummet at a positive offset. The list is proved complete.
     raises: If a length divided by `height` exceeds 1.1e102.
     notes: Near the vertical a relative error of the data changes the tangents by up to about ``2 x / (x - height)``
-        times as much, where the shape leaves the vertical at the height `x`. Where two shapes meet,
-        it changes them by its square root.
+        times as much, where the shape leaves the vertical at the height `x`. Where two shapes meet, it changes them by
+        its square root.
 
     >>> pair = dict(lower_weight=1, lower_thread=2, upper_weight=3, upper_thread=1)
     >>> for shape in rc.two_links.two_plummets_shapes(**pair, height=1 / 64):
@@ -300,8 +286,8 @@ def standing_plummet_shape(
 ) -> PairShape | None:
     """Return the steady shape in which a plummet stands above a hanging one, at any inclination.
 
-    returns: The only shape; None unless `height` is less than `standing_plummet`. The first inclination is that of
-        the rod to the upward vertical; the first tension is negative, the thrust in the rod.
+    returns: The shape; None unless `height` is less than `standing_plummet`. The first inclination is that of the rod to
+        the upward vertical; the first tension is negative, the thrust in the rod.
 
     >>> pair = dict(standing_weight=1, rod=1, hung_weight=3, thread=2)
     >>> rc.two_links.standing_plummet_shape(**pair, height=0.9).inclination.round(4)
@@ -318,10 +304,10 @@ def standing_plummet_shape(
 def standing_link_shape(thread: float, centroid: float, radius_of_gyration: float, height: float) -> PairShape | None:
     """Return the steady shape in which a link stands on its lowest point, at any inclination.
 
-    thread: Length of the thread, positive. A hand must move as the end of such a thread does.
+    thread: Length of the thread, or of one whose end moves as the hand does
     centroid: Distance of the centre of gravity of the link above its lowest point
-    returns: The only shape; None unless `height` is less than `standing_link`. The first inclination is that of the
-        link to the upward vertical; both tensions are that of the thread or hand.
+    returns: The shape; None unless `height` is less than `standing_link`. The first inclination is that of the link to
+        the upward vertical; both tensions are that of the thread or hand.
 
     >>> rc.two_links.standing_link_shape(1.0, centroid=0.6, radius_of_gyration=0.35, height=0.5).half_waves
     1
@@ -335,8 +321,7 @@ def jointed_links(
 ) -> Floats:
     """Return both conical heights of two jointed links, such as a bell and its clapper.
 
-    upper_centroid: Distance of the centre of gravity of the upper link below the support. It may be negative if the
-        links still hang.
+    upper_centroid: Distance of the centre of gravity of the upper link below the support; may be negative.
     returns: The larger (slower) first: ``a2 h1 / (x - l1) = (m + 1)(x - l2) + l2 - a2``, ``m = W2 h2 / (W1 a2)``.
     raises: If the upper link would stand.
 
@@ -358,8 +343,8 @@ def jointed_links_shapes(
 ) -> list[PairShape]:
     """Return all hanging steady shapes of two jointed links at a speed, at any inclination.
 
-    returns: All shapes, at most four, ordered by half waves, then by the inclination of the lower link; pendulum
-        lengths may have any value. Tensions are the sizes of the reactions at the upper pins.
+    returns: All shapes, ordered by half waves, then by the inclination of the lower link. Tensions are the sizes of the
+        reactions at the upper pins.
 
     >>> clapper = dict(lower_weight=1.0, lower_centroid=0.75, lower_radius_of_gyration=0.1875**0.5)
     >>> bell = dict(upper_weight=1.0, upper_length=0.25, upper_centroid=0.125, upper_radius_of_gyration=0.203125**0.5)
@@ -375,11 +360,9 @@ def pin_of_silent_clapper(
 ) -> FloatOrArray:
     """Return the distance of the pin of the clapper below the support of the bell at which the bell is silent.
 
-    returns: The distance ``a2`` at which both swing, or whirl at any inclination, in one line as if clamped: ``h1 =
-        (m + 1) l1 + m (a2 - l2)``. The conical height of that motion is the distance plus the `pendulum_length` of
-        the clapper.
-    raises: If the pendulum length of the clapper is not less than that of the bell: the bell then rings with any pin
-        below its support.
+    returns: The distance ``a2`` at which both swing or whirl in one line: ``h1 = (m + 1) l1 + m (a2 - l2)``. The conical
+        height of that motion is the distance plus the `pendulum_length` of the clapper.
+    raises: If the pendulum length of the clapper is not less than that of the bell.
     notes: A relative error of the data changes the result by up to ``3 (l1 + l2) / (l2 - l1) + 6`` times as much,
         with l1 and l2 the pendulum lengths of clapper and bell.
 
@@ -394,8 +377,7 @@ def pin_of_silent_clapper(
 def joint_without_bending(length: ArrayLike, pin: ArrayLike) -> FloatOrArray:
     """Return the distance of a joint below the pin of a hanging uniform rod at which the rod still swings straight.
 
-    With a joint there, the rod does not bend when it swings, or whirls at any inclination: CG.CD = CA^2, with C the
-    pin, G the middle, D the joint, A the upper end.
+    It follows from CG.CD = CA^2, with C the pin, G the middle, D the joint, A the upper end.
 
     length: Length of the rod
     pin: Distance of the pin from the middle of the rod: more than a sixth of the length, less than half.

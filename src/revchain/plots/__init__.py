@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures by matplotlib, imported when something is drawn.
 
-`DRAWN_BY` has, for the name of a class, the function that is its method `plot`; ``GyrostaticString.vibration`` stands for
-the method `plot_vibration`.
+`DRAWN_BY` has, for the name of a class, the function that is its method `plot`.
 """
 
 DRAWN_BY = {

@@ -87,15 +87,13 @@ def plot_branch(
     stability: bool | None = None,
     frame: str = "free",
 ) -> Axes:
-    """Draw a quantity of the branch against the speed, with its stability, folds and pitchfork.
+    """Draw a quantity of the branch against the speed, with its stability, folds and pitchforks.
 
-    quantity: Quantity to draw: ``lowest_inclination`` (in degrees; the default, but for held systems),
-        ``tip_radius``, ``largest_offset`` (the default of held systems), ``top_tension``, ``moment_of_inertia`` or
-        ``effective_energy``.
+    quantity: Quantity to draw: ``lowest_inclination`` (in degrees; the default), ``tip_radius``, ``largest_offset`` (the
+        default of held systems), ``top_tension``, ``moment_of_inertia`` or ``effective_energy``.
     stability: Whether to draw the stability, as in `Branches.plot`.
     frame: Frame of the stability, ``"free"`` or ``"driven"``, as in `SteadyShape.stability`.
-    raises: If `quantity` is another word, or one that the system does not have; if `frame` is another word; for cords if
-        `stability` is true.
+    raises: If `quantity` or `frame` is another word, or the system has no such quantity or stability.
 
     >>> ax = rc.branch(rc.Chain.uniform_plummets(2, length=2.0), 1, min_conical_height=0.1).plot()
     >>> ax.get_ylabel()
@@ -116,24 +114,16 @@ def plot_branches(
 ) -> Axes:
     """Draw the bifurcation diagram: a quantity of each branch against the speed.
 
-    Colours show half waves at the start. A line is solid where the shape is a minimum of the energy, dash-dotted where it
-    is no minimum but spectrally stable, dashed where it is unstable, dotted where the errors of the exponents leave the
-    stability open. Hollow diamonds are folds, discs are pitchforks, where a branch and its mirror image leave the
-    vertical; their speeds are above the frame, unless another one is so close that the numbers would overlap. Crosses are
-    other changes of stability, such as a Hamiltonian Hopf bifurcation; of chains and rigs `Branches.stability_windows` says
-    what each is. The line changes at the ends of these windows, also between two points (of a held chain midway).
-
-    Above about 19,000 (points times links squared) fewer places are examined, above 150,000 only the points, so that a
-    short window can be missed. If the stability was asked for, the first limit does not apply; if not, the second is
-    75,000. With ``hanging_only=False`` colours show the posture if there are at most 7.
+    Colours show half waves at the start, or the posture with ``hanging_only=False`` if there are at most 7. Lines are solid
+    where the shape is a minimum of the energy, dash-dotted where it is only spectrally stable, dashed where it is unstable,
+    dotted where the stability is undecided. Hollow diamonds are folds, discs are pitchforks, crosses are other changes of
+    stability; for chains and rigs `Branches.stability_windows` lists them. In large diagrams a short window can be missed.
 
     quantity: Quantity to draw, as in `Branch.plot`.
-    stability: Whether to draw the stability; if False, all lines are solid. If left out, it is drawn for chains, rigs and
-        held chains if that takes less than about a second (points times links squared at most 150,000).
+    stability: Whether to draw the stability; if False, all lines are solid. If left out, it is drawn for systems of
+        links if that takes less than about a second.
     frame: Frame of the stability, ``"free"`` or ``"driven"``, as in `SteadyShape.stability`.
-    returns: The drawing. The title says whether the diagram is `complete`, but for held systems.
-    raises: If `quantity` is another word, or one that the system does not have; if `frame` is another word; for cords if
-        `stability` is true.
+    raises: If `quantity` or `frame` is another word, or the system has no such quantity or stability.
 
     >>> ax = rc.branches(rc.Chain.uniform_plummets(3, length=3.0), min_conical_height=0.04).plot()
     >>> ax.get_xlabel()

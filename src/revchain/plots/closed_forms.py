@@ -60,10 +60,9 @@ def _finish(ax: Axes, across: str, up: str, title: str) -> None:
 def plot_force_diagram(diagram: ForceDiagram, axes: tuple[Axes, Axes] | None = None) -> tuple[Axes, Axes]:
     """Draw the shape and its force diagram side by side.
 
-    Up to 8 links have the letters of Fig. 3 of the paper; with more only O and N are written.
+    Up to 8 links have the letters of Fig. 3 of the paper.
 
-    returns: Axes of the shape and of the forces. The weights lifted onto the line through N are drawn to a scale in
-        which ON is the mean weight.
+    returns: Axes of the shape and of the forces, with ON as the mean weight.
 
     >>> shape = rc.steady_shapes(rc.Chain.uniform_plummets(3, length=3.0), conical_height=0.5)[0]
     >>> figure, forces = shape.force_diagram().plot()
@@ -134,7 +133,7 @@ def plot_funicular_polygon(
 ) -> tuple[Axes, Axes]:
     """Draw the polygon and its force diagram side by side, sides and rays in the same colours.
 
-    returns: Axes of the polygon (with the weights also moved to a horizontal line) and of the force diagram.
+    returns: Axes of the polygon and of the force diagram.
 
     >>> line = rc.funicular_polygon([1.0, 1.0], [0.0, 1.0, 2.0, 3.0], horizontal_tension=0.5)
     >>> polygon, forces = line.plot()
@@ -240,7 +239,7 @@ def plot_governor(motion: GovernorMotion, ax: Axes | None = None, *, duration: f
 
 @described(bound=True)
 def plot_sleeve_governor(governor: SleeveGovernor, ax: Axes | None = None, *, speed: str | None = None) -> Axes:
-    """Draw the lift of the sleeve against the speed, between the stops; grey: where friction holds it; dashed: unstable.
+    """Draw the lift of the sleeve against the speed, grey where friction holds it, dashed where it is unstable.
 
     Without a sleeve the distance of the balls from the axis is drawn.
 
@@ -341,10 +340,9 @@ def plot_vibration(string: GyrostaticString, angular_speed: float, links: int = 
 
 @described(bound=True)
 def plot_bell(bell: BellAndClapper, ax: Axes | None = None) -> Axes:
-    """Draw bell, clapper and headstock at rest, true to scale.
+    """Draw bell and clapper at rest with their pendulum lengths.
 
-    returns: The drawing: the axle, the pin of the clapper, both centres of gravity, and the pendulum lengths beside
-        them. The outline of the bell is only an illustration: the data do not define it.
+    returns: The drawing. The outlines of the bell and its headstock are only illustrations.
 
     >>> links = {"mass": [18, 500], "length": [0.65, 0.15], "centroid": [0.52, 0.05]}
     >>> rc.bell_and_clapper(rc.Chain(**links, radius_of_gyration=[0.08, 0.36])).plot().get_ylabel()

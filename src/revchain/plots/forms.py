@@ -50,13 +50,13 @@ def unit_of(body: dict[str, Any], tall: float, length: float, gyration: float) -
 
 
 def colour_of(shade: str, backward: bool) -> str:
-    """Return the colour of a piece; one without a colour of its own has that of its direction of spin."""
+    """Return the colour of a piece, or of its direction of spin."""
     colours: dict[str, str] = forms()["colours"]
     return colours.get(shade, colours["back" if backward else "ahead"])
 
 
 def opacity_of(colour: str) -> float:
-    """Return the opacity of a colour of the table, below 1 for a bell, whose clapper is seen."""
+    """Return the opacity of a colour of the table."""
     table = forms()
     return float({table["colours"][name]: part for name, part in table["opacity"].items()}.get(colour, 1.0))
 
@@ -85,7 +85,7 @@ def extent_of(form: str) -> tuple[float, float, float]:
 def draw_form(ax: Axes, form: str, at: float, most: float, levels: Any, unit: float, backward: bool) -> None:
     """Draw a body, seen from the side. A metre is as wide as it is high, or `most` units of the axis if that is less.
 
-    `levels` converts distances along the link, counted from the start of the pieces, to levels of the picture.
+    `levels` converts distances along the link to levels of the picture.
     """
     from matplotlib.patches import Ellipse, Polygon
     from matplotlib.transforms import Affine2DBase

@@ -92,8 +92,7 @@ class Straight:
         return max([*reach, WHEEL * has_wheels])
 
     def room(self, narrow: float = 1.0) -> tuple[float, float]:
-        """Return the room left of the axis for parts and right of it for names, in data units, in columns `narrow` times
-        narrower."""
+        """Return the room left of the axis for parts and right of it for names, in data units."""
         far, longest = self.beside(), max((len(line) + 2 for name in self.names() for line in name.split("\n")), default=0)
         left = max(SPACING / 2, far + 0.2 + 0.9 * (self.system._support is not None))
         return left, max(SPACING / 2, far + narrow * longest * LETTER * SPACING / COLUMN)
@@ -150,7 +149,7 @@ class Straight:
             ax.plot(at, self.level[0], marker="^", **SUPPORT)
 
     def links(self, ax: Axes, across: Floats, colour: str, label: str | None = None) -> None:
-        """Draw the links at these distances from the vertical; inverted ones are drawn stout."""
+        """Draw the links at these distances from the vertical, inverted ones stout."""
         drawn = thinned(across) if across.size > MOST_POINTS else slice(None)
         marker = "o" if self.few else ""
         line: dict[str, Any] = {"color": colour, "linewidth": 1.6, "marker": marker, "markersize": 4.0, "zorder": 2}
@@ -278,9 +277,9 @@ def floating(system: System) -> NDArray[np.bool_]:
 def plot_system(system: System, ax: Axes | None = None) -> Axes:
     """Draw the system at rest, true to scale along the axis.
 
-    returns: The drawing: joints (small dots), bodies (larger dots are heavier), rods as bars from end to end, and
-        names of up to 12 links. Inverted links are thick, wheels are seen edge-on, bodies that float are hollow, and a
-        cord is thicker where it is heavier. Links whose names have a word such as ``bell`` or ``man`` are drawn as such.
+    returns: The drawing: joints (small dots), bodies (larger dots are heavier), rods as bars, and names of up to 12 links.
+        Inverted links are thick, wheels are seen edge-on, bodies that float are hollow, and a cord is thicker where it is
+        heavier. Links with names such as ``bell`` or ``man`` are drawn as such.
 
     >>> rc.Chain(mass=[1.0, 2.0], length=[0.5, 0.3]).plot().get_ylabel()
     'depth below the support (m)'
@@ -305,7 +304,6 @@ def beside_at_rest(system: System | None, ax: Axes | None, width: float, height:
     """Return the axes of the caller, or new axes, beside the system at rest if its links are few.
 
     Both have the same levels if `across` is given, the metres across of a drawing in true proportions or 0 of another.
-    A very flat drawing has levels of its own.
     """
     bent = getattr(system, "span", None) is not None  # it cannot hang straight
     if ax is not None or system is None or bent or not (straight := Straight(system)).few:
@@ -354,11 +352,10 @@ def plot_modes(
     Forward modes of a rig with flywheels are blue, backward ones red; inverted links are thick.
 
     modes: Numbers of the modes to draw (for a rig, of both directions); the first six of this result if left out.
-    carried: Response of the same system at one speed with all pins, drawn first, with its support on its circle.
+    carried: Response of the same system at one speed with all pins, drawn first.
     speed: Unit of the speeds: ``"rad/s"``, ``"rpm"``, ``"Hz"`` (turns per second) or ``"s"`` (the period). If left out,
-        each speed is written in the unit of the question, or in rpm and as a period.
-    raises: If `modes` has a number that is not in this result, the result is empty and `modes` is given (else the system is drawn at rest),
-        or `carried` is not such a response.
+        that of the question, or rpm and the period.
+    raises: If `modes` has a number that is not in this result, or `carried` is not such a response.
 
     >>> ax = rc.modes(rc.Chain.uniform_rods(120, length=0.36), 4).plot()
     >>> ax.get_ylabel()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Helpers with which the example programs draw. They may change; a program of your own should copy what it needs.
+"""Helpers with which the example programs draw. They may change.
 
 Importing this module gives all pictures the style of the documentation.
 """
@@ -41,7 +41,7 @@ def hang(axes: Axes, offset: Any, depth: Any, *, weights: Iterable[float] = (), 
 
 
 def whirling(axes: Axes, offset: Any, depth: Any, **line: Any) -> None:
-    """Draw a chain that whirls, seen from the side at seven moments of half a turn, the last of them strong."""
+    """Draw a chain that whirls, seen from the side at seven moments of half a turn."""
     for view in np.cos(np.linspace(np.pi, 0, 7)):
         axes.plot(view * np.asarray(offset), depth, **{"color": "C0", "linewidth": 2.5, "alpha": 1.0 if view == 1 else 0.2, **line})
 
@@ -59,7 +59,7 @@ def side_view(axes: Axes, title: str, *, bottom: float, top: float = 0.05, half_
 
 
 def branch_of(shape: SteadyShape, branches: Iterable[Branch]) -> int:
-    """Number of the branch on which a shape lies: the one with the nearest point."""
+    """Number of the branch with the point nearest to a shape."""
     apart = [
         np.hypot(branch.angular_speed / shape.angular_speed - 1, branch.lowest_inclination - shape.inclination[0]).min()
         for branch in branches
@@ -68,7 +68,7 @@ def branch_of(shape: SteadyShape, branches: Iterable[Branch]) -> int:
 
 
 def legend_below(axes: Axes, **more: Any) -> None:
-    """A legend under the frame and the label, where it covers no curve."""
+    """A legend under the frame and the label."""
     down = axes.transAxes + ScaledTranslation(0, -0.55, axes.figure.dpi_scale_trans)  # inches
     axes.legend(**{"loc": "upper center", "bbox_to_anchor": (0.5, 0), "bbox_transform": down, "ncols": 2, **more})
 

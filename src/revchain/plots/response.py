@@ -31,12 +31,10 @@ def plot_response(
 ) -> Axes:
     """Draw the distances of pins from the axis against the speed, on a logarithmic scale.
 
-    A line is dashed if the pin is on the side opposite to the support or the force (with dashpots: behind or ahead by more
-    than a quarter of a turn); vertical lines mark the resonances of a chain. A response at one speed is drawn as a shape:
+    A line is dashed where the pin is opposite to the support or the force. A response at one speed is drawn as a shape:
     the offsets of the pins against their depths.
 
-    pins: Numbers of the pins to draw. If left out: the lowest and up to three others, evenly spaced; all at a
-        single speed.
+    pins: Numbers of the pins to draw. If left out: the lowest and up to three others; all at a single speed.
     resonances: Whether to mark the whirl speeds of a chain in the range of the plot, if there are at most 60.
     raises: If `pins` has a pin that is not in this result, or the result has no speed.
 
@@ -95,7 +93,7 @@ def _with_neighbours(yes: np.ndarray[tuple[int], np.dtype[np.bool_]]) -> np.ndar
 
 
 def _spread(available: list[int], links: int) -> list[int]:
-    """Return the lowest of the pins, and some others evenly up the chain; not the support."""
+    """Return the lowest of the pins, and some others evenly up the chain."""
     free = [pin for pin in sorted(set(available)) if pin < links] or available
     return [free[k] for k in np.linspace(0, len(free), min(MOST_CURVES, len(free)), endpoint=False).astype(int)]
 
@@ -106,12 +104,10 @@ def plot_swing(
 ) -> Axes:
     """Draw the system at the given times, the offsets of pins against time, or their paths seen from above.
 
-    kind: ``"shapes"``: shapes from dark (early) to light (late), with enlarged offsets, at most five; the usual one of
-        a swing in a plane, not with momentum. ``"time"``: offsets against time, with momentum those along y dashed; the
-        usual one of a support that is moved, which is grey. ``"path"``: paths seen from above; with momentum only, and
-        then the usual one.
-    pins: For ``"time"`` and ``"path"``: numbers of the pins, 0 for the free end; for a cord, indices in
-        `arc_length`.
+    kind: ``"shapes"``: up to five shapes from dark (early) to light (late), with enlarged offsets; not with momentum.
+        ``"time"``: offsets against time, with momentum those along y dashed. ``"path"``: paths seen from above; with
+        momentum only. If left out, ``"path"`` with momentum, ``"time"`` if the support is moved, else ``"shapes"``.
+    pins: For ``"time"`` and ``"path"``: numbers of the pins, 0 for the free end; for a cord, indices in `arc_length`.
     raises: If `kind` is another word, or there is no such pin.
 
     >>> import numpy as np
@@ -156,10 +152,10 @@ def plot_swing(
 
 @described(bound=True)
 def plot_campbell(found: Campbell, ax: Axes | None = None, *, speed: str | None = None) -> Axes:
-    """Draw the frequencies against the speed, its multiples, and a dot at each crossing; orange where the shape is unstable.
+    """Draw the frequencies against the speed, its multiples and their crossings; orange where the shape is unstable.
 
-    speed: Unit of speeds and frequencies: ``"rpm"``, ``"rad/s"``, ``"Hz"``, or ``"s"``, which draws periods against the
-        period. If left out, that of the question, or rpm.
+    speed: Unit of speeds and frequencies: ``"rpm"``, ``"rad/s"``, ``"Hz"``, or ``"s"`` for periods. If left out, that of
+        the question, or rpm.
 
     >>> import numpy as np
     >>> carousel = rc.Rig(rc.Chain(mass=80.0, length=4.0), support=rc.Support(radius=3.0))

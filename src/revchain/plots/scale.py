@@ -33,9 +33,9 @@ WIDE_NAME = 26  # letters in a line
 def plot_to_scale(system: Any) -> Axes:
     """Return a drawing of a system at rest, true to scale.
 
-    Lengths and masses are written at up to 8 links, or 12 groups of equal links. Symbols of small bodies are larger than
-    true to scale. A system whose ends are held a span apart is drawn as an arc of its length; a governor with its arms
-    half-way between its stops, or without stops at 30 degrees.
+    Lengths and masses are written at up to 8 links, or 12 groups of equal links. Symbols of small bodies are not to scale.
+    A system whose ends are held a span apart is drawn as an arc of its length; a governor with its arms half-way between
+    its stops, or without stops at 30 degrees.
 
     Examples
     --------

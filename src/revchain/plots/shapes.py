@@ -35,7 +35,7 @@ def plot_shape(shape: SteadyShape, ax: Axes | None = None, *, speed: str | None 
 
 @described(bound=True)
 def plot_shapes(shapes: SteadyShapes, ax: Axes | None = None, *, speed: str | None = None) -> Axes:
-    """Draw all shapes in one picture, true to scale, coloured by half waves.
+    """Draw the shapes in one picture, true to scale, coloured by half waves.
 
     >>> ax = rc.steady_shapes(rc.Chain.uniform_plummets(3, length=1.0), conical_height=0.02).plot(speed="rpm")
     >>> ax.get_title(), ax.get_legend().get_title().get_text()
@@ -50,10 +50,10 @@ def plot_shapes(shapes: SteadyShapes, ax: Axes | None = None, *, speed: str | No
 
 @described(bound=True)
 def plot_drag_shape(shape: DragShape, ax: Axes | None = None, *, view: str | None = None) -> Axes:
-    """Draw the shape from the side and from above, true to scale; there an arrow has the sense of the motion.
+    """Draw the shape from the side and from above, true to scale, with an arrow in the sense of the motion.
 
-    view: ``"side"``: seen along the motion, outward distance against depth. ``"above"``: outward distance against distance
-        in the sense of the motion. If left out, both are drawn one above the other, in given axes the view from above.
+    view: ``"side"``: seen along the motion. ``"above"``: seen from above. If left out, both, in given axes the view from
+        above.
 
     >>> carousel = rc.Rig(rc.Chain(mass=80.0, length=4.0), support=rc.Support(radius=3.0))
     >>> ax = rc.drag_shape(carousel, rc.Drag(1.0, area=0.6), angular_speed="12 rpm").plot(view="above")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The parts that all pictures share: colours, frames and units. Axes that the caller gives keep their frames."""
+"""The parts that pictures share: colours, frames and units."""
 
 from __future__ import annotations
 
@@ -54,10 +54,7 @@ def house(number: int) -> str:
 
 
 class SpeedUnit:
-    """The unit in which a picture shows speeds, which are given to it in rad/s.
-
-    If the caller chooses none, it is that in which the question was asked, or the usual one.
-    """
+    """The unit in which a picture shows speeds: that of the caller, of the question, or the usual one."""
 
     def __init__(self, caller: str, unit: str | None, found: Any = None, usual: str = "rad/s") -> None:
         chosen = getattr(found, "_speed_unit", None) or usual if unit is None else unit
@@ -70,7 +67,7 @@ class SpeedUnit:
         return f"{self.quantity} ({self.unit})"
 
     def of(self, speed: Any) -> Any:
-        """Speeds in this unit. Those of backward rotation are negative, also as periods; that of rest is infinite."""
+        """Speeds, given in rad/s, in this unit."""
         if self.unit != "s":
             return self.per_radian * speed
         with np.errstate(divide="ignore"):
@@ -119,7 +116,7 @@ def new_figure(width: float, height: float) -> Figure:
 
 
 def axes_or_new(ax: Axes | None, width: float, height: float) -> Axes:
-    """Return the axes of the caller, or new axes on a figure of their own."""
+    """Return the axes of the caller, or new axes."""
     if ax is not None:
         return checked_axes(ax)
     axes: Axes = new_figure(width, height).add_subplot()
@@ -137,7 +134,7 @@ def checked_axes(ax: Axes) -> Axes:
 
 
 def legend_outside(ax: Axes, **more: Any) -> None:
-    """Write the legend to the right of the frame, where it covers no curve."""
+    """Write the legend to the right of the frame."""
     ax.legend(**{"loc": "upper left", "bbox_to_anchor": (1.02, 1.0), "borderaxespad": 0.0, "frameon": False, **more})
 
 
@@ -153,7 +150,7 @@ def save_picture(axes: Any, title: str, path: Path) -> None:
 
 
 def thinned(curve: Numbers) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
-    """Return indices of the points that a picture needs: the ends, and the extremes of every stretch."""
+    """Return indices of the points that a picture needs: the ends and the extremes of its stretches."""
     if curve.size <= MOST_POINTS:
         return np.arange(curve.size)
     edges = np.linspace(0, curve.size, MOST_POINTS // 2 + 1).astype(np.intp)
@@ -165,7 +162,7 @@ def thinned(curve: Numbers) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
 
 
 def figure_of(ax: Axes) -> Figure:
-    """Return the figure on which axes lie, however deep in parts of it."""
+    """Return the figure on which axes lie."""
     figure = ax.get_figure(root=True)
     assert figure is not None
     return figure
@@ -177,10 +174,7 @@ def moved_by(ax: Axes, x: float = 0.0, y: float = 0.0) -> Any:
 
 
 def apart(places: Any, size: Any, low: float = -np.inf, high: float = np.inf) -> Floats:
-    """Return the places of texts of these sizes, moved as little as possible (in least squares) until none overlap.
-
-    They keep their order, and stay between the two ends if there is room for all.
-    """
+    """Return the places of texts of these sizes, moved as little as possible until none overlap, in their order."""
     at = np.asarray(places, float)
     order = np.argsort(at, kind="stable")
     sizes = np.broadcast_to(np.asarray(size, float), at.shape)[order]
@@ -201,7 +195,7 @@ def apart(places: Any, size: Any, low: float = -np.inf, high: float = np.inf) ->
 
 
 def keep_room(ax: Axes, share: float = 0.35) -> None:
-    """Widen a drawing in true proportions that is almost flat or almost vertical, until it can be read."""
+    """Widen a drawing in true proportions that is almost flat or almost vertical."""
     (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
     wide, tall = right - left, high - low
     if tall < share * wide:
@@ -211,10 +205,7 @@ def keep_room(ax: Axes, share: float = 0.35) -> None:
 
 
 def half_waves_style(waves: int, named: set[int]) -> tuple[str, str | None]:
-    """Return the colour of a curve, and a label for the first curve with this number of half waves.
-
-    `named` holds the numbers that have a label, and gets this one.
-    """
+    """Return the colour of a curve, and a label unless `named`, which gets this number of half waves, has it."""
     label = None if waves in named else f"{waves} half wave{'s' * (waves != 1)}"
     named.add(waves)
     return house(waves - 1), label

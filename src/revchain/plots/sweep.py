@@ -38,8 +38,8 @@ def _reason(kinds: dict[str, str]) -> str:
 def plot_sweep(found: Dataset, name: str | None = None, ax: Axes | None = None, *, speed: str | None = None) -> Axes:
     """Draw a result of `revchain.sweep` against the varied numbers.
 
-    One grid gives curves, two grids give a map of the first mode, and random numbers give histograms with percentiles.
-    One grid with random numbers gives percentile bands, two grids with random numbers give a map of medians.
+    One grid gives curves, two grids give a map of the first mode, and random numbers give histograms. With random numbers
+    one grid gives percentile bands, and two grids give a map of medians.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def plot_sweep(found: Dataset, name: str | None = None, ax: Axes | None = None, 
     ax : matplotlib.axes.Axes, optional
         Axes to draw in; a new figure if left out.
     speed : {"rad/s", "rpm", "Hz", "s"}, optional
-        Unit of speeds on the axes; ``"s"`` draws periods. If left out, that of the scene or of its speeds, or rad/s.
+        Unit of speeds on the axes; ``"s"`` draws periods. If left out, that of the scene, or rad/s.
 
     Returns
     -------
@@ -60,7 +60,7 @@ def plot_sweep(found: Dataset, name: str | None = None, ax: Axes | None = None, 
     Raises
     ------
     ValueError
-        If there are more than two grids, or words varied; if `name` is not that of a result, or `speed` is another unit.
+        If there are more than two grids, words are varied, `name` is not that of a result, or `speed` is another unit.
 
     Examples
     --------
