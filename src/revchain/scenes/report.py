@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The report of a scene: one HTML file with the system, all answers, their bounds and pictures, to hand to a colleague."""
+"""The report of a scene: one HTML file with the system, the answers, their bounds and pictures."""
 
 from __future__ import annotations
 
@@ -171,7 +171,7 @@ WORDS = {"proved": "Proved", "computed": "Computed", "open": "Not proved"}
 
 
 def verdicts(found: Any) -> list[Verdict]:
-    """Return what is proved about an answer, and what is not, in words for a reader who does not know the program."""
+    """Return what is proved about an answer, and what is not, in words."""
     short = shortfall(found)
     said = [Verdict("open", _sentence(short))] if short else []
     makers: dict[type, Callable[[Any], list[Verdict]]] = {

@@ -38,8 +38,7 @@ def option(key: str) -> str:
 class Numbers:
     """Numbers of one table: text with units converted, ranges checked, errors noted with the key path.
 
-    A wrong number is NaN; `done` raises one error for all of them. If the scene has no weight or no gravity,
-    masses stay masses, else they are multiplied by gravity.
+    A wrong number is NaN; `done` raises one error for all of them.
     """
 
     def __init__(

@@ -35,7 +35,7 @@ fields_of = cache(fields)  # `fields` takes a millisecond in each call
 
 
 class Table(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True, repr_omit_defaults=True, kw_only=True):
-    """The base of all tables of a scene: fixed keys, no positional arguments; numbers in SI units or with a unit."""
+    """The base of the tables of a scene: numbers in SI units or with a unit."""
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle only the given values: msgspec recognizes defaults, which `to_dict` leaves out, by identity."""
@@ -81,7 +81,7 @@ class Pin(Table, frozen=True):
 
 
 class AirDrag(Table, frozen=True):
-    """Drag of air on a link, for [ask.drag]: on the link as a cylinder, on a body at its centre of gravity, or on both."""
+    """Drag of air on a link, for [ask.drag]: on a cylinder, on a body at its centre of gravity, or on both."""
 
     coefficient: Annotated[NotNegative, says("Drag coefficient: 1.0 to 1.2 for a cylinder, 0.5 for a sphere.")]
     diameter: Annotated[MaybeNotNegative, says("Diameter of the link as a cylinder (m).")] = UNSET
@@ -271,7 +271,7 @@ class AskModes(Table, frozen=True):
 
     count: Annotated[
         Count | Literal["all"] | UnsetType,
-        says('Number of modes, slowest first, or "all"; 10 if left out. If there are fewer, all of them.'),
+        says('Number of modes, slowest first, or "all"; 10 if left out.'),
     ] = UNSET
     first: Annotated[Count | UnsetType, says("Number of the first mode; the slowest mode is 1.")] = UNSET
     angular_speed: Annotated[Pair | UnsetType, says("Window [low, high]: low <= whirl speed < high (rad/s).")] = UNSET
@@ -352,10 +352,7 @@ class AskBranches(Table, frozen=True):
         bool, says("Leave out branches with links above their pins (of a rig: inverted otherwise than in the scene).")
     ] = True
     stability: Annotated[
-        bool, says(
-            "List the windows of stability in the terminal, the report and JSON, and write the verdict at each point to "
-            "JSON and CSV, however long it takes."
-        ),
+        bool, says("Whether to list the windows of stability, and write the verdict at each point to JSON and CSV."),
     ] = False
 
 
@@ -451,7 +448,7 @@ class Tables(Table, frozen=True):
     gravity: Annotated[Positive, says("Acceleration of gravity (m/s^2).")] = STANDARD_GRAVITY
     order: Annotated[
         Literal["free end first", "support first"],
-        says("Order of the links; all indices and lists of the scene and its studies count in it."),
+        says("Order of the links, and of the indices and lists of the scene."),
     ] = "free end first"
     links: Annotated[list[Link] | UnsetType, says("The links, in the given order.")] = UNSET
     uniform_chain: Annotated[UniformChain | UnsetType, says("Equal links, instead of links.")] = UNSET
