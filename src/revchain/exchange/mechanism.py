@@ -124,7 +124,7 @@ class State:
 
 
 def mechanism(function: str, given: Any, gravity: float | None, several: bool = True) -> tuple[Mechanism, list[State]]:
-    """The bodies of a system, or of the system of shapes (one, if not `several`), and its states: at rest, or the shapes."""
+    """The bodies of a system, or of that of shapes (one, if not `several`), and its states: at rest, or the shapes."""
     shapes = [given] if isinstance(given, SteadyShape) else list(given) if isinstance(given, SteadyShapes) else None
     system = given if shapes is None else given.system
     if not isinstance(system, Chain | Rig):

@@ -312,7 +312,7 @@ class Text:
     # ---- both
 
     def _mend_inertial(self, inertial: Element, name: str) -> None:
-        """Give MuJoCo moments of inertia that it takes, where it would refuse those of the file; keep these."""
+        """Replace moments of inertia that MuJoCo would refuse; keep those of the file."""
         if "boundinertia" in self.settings or "true" in map(self.settings.get, ("balanceinertia", "inertiafromgeom")):
             return  # MuJoCo makes others of them
         with suppress(ValueError):  # no numbers: MuJoCo says so

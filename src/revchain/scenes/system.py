@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The system of a scene, built from its tables: units, masses and weights, repeated links; each error has its key."""
+"""The system of a scene, built from its tables."""
 
 from __future__ import annotations
 

@@ -54,7 +54,7 @@ class Flywheel(Table, frozen=True):
     weight: Annotated[MaybeNotNegative, says("Weight of the wheel (N); or give mass.")] = UNSET
     mass: Annotated[MaybeNotNegative, says("Mass of the wheel (kg); or give weight.")] = UNSET
     driven: Annotated[
-        bool, says("Whether a motor keeps the spin relative to the link constant; else the wheel runs freely.")
+        bool, says("Whether a motor keeps the spin relative to the link; else the wheel runs freely.")
     ] = False
 
 
@@ -183,13 +183,13 @@ class Cord(Whole, frozen=True, kw_only=True):
     """A flexible cord: the limit of many short links."""
 
     tip_centroid: Annotated[
-        MaybeNotNegative, says("For a bob that turns at its end: distance of the bob's centre of gravity below it (m).")
+        MaybeNotNegative, says("Distance of the centre of gravity of a bob that turns at the end below that end (m).")
     ] = UNSET
     tip_radius_of_gyration: Annotated[
         MaybeNotNegative, says("Radius of gyration of the bob about its centre of gravity (m).")
     ] = UNSET
     masses: Annotated[
-        list[PointMass] | UnsetType, says("Point masses on the cord, beside its own mass; those at one place are added.")
+        list[PointMass] | UnsetType, says("Point masses on the cord, beside its own mass.")
     ] = UNSET
 
     density: Annotated[
@@ -207,7 +207,7 @@ class End(Support, frozen=True):
 
 
 class Held(Table, frozen=True):
-    """Data of a chain or cord held at both ends: the span of a bent one, or the tension of a straight one."""
+    """A chain or cord held at both ends, with a span or under a tension."""
 
     span: Annotated[MaybePositive, says("Distance between the ends along the axis (m), less than the length.")] = UNSET
     tension: Annotated[MaybePositive, says("Tension at the upper end (N), instead of span.")] = UNSET
@@ -463,7 +463,7 @@ class Tables(Table, frozen=True):
         says('Unit of speeds in printed tables and pictures ("s": periods); that of the question if left out.'),
     ] = UNSET
     fluid: Annotated[Literal["still", "turning"], says("Motion of the fluid: at rest, or turning with the chain.")] = "still"
-    held: Annotated[Held | UnsetType, says("Data of a chain or cord that is held at both ends.")] = UNSET
+    held: Annotated[Held | UnsetType, says("Span or tension of a chain or cord held at both ends.")] = UNSET
     ask: Annotated[Ask, says("Questions to answer.")] = Ask()
 
     def _links(self) -> Links:

@@ -21,7 +21,7 @@ _MOST_LENGTHS = 1e5  # of the cord, for the size of a bob: the nodes of larger o
 
 
 class CordData(NamedTuple):
-    """All that a cord is made of; masses or weights."""
+    """The data of a cord; masses or weights."""
 
     length: float
     weight: float

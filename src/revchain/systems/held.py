@@ -144,11 +144,7 @@ class Held(System):
 
     @property
     def mode_count(self) -> int | None:
-        """Number of modes of the straight chain; None for a cord.
-
-        It is N - 1 for N links and, under a tension, one more for each end on a spring. It is one less for each independent
-        motion of the movable pins that moves no mass.
-        """
+        """Number of modes of the straight chain; None for a cord."""
         if self._is_cord:
             return None
         core: Any = self.system._compiled
@@ -171,7 +167,7 @@ class Held(System):
         return 1.0 if self.weightless else self.system._force(gravity)
 
     def _force_in_shape(self, gravity: float, conical_height: float, angular_speed: float) -> float:
-        """Factor that turns a force of a compiled shape, which is times the conical height, into a force of the results."""
+        """Factor that turns a force of a compiled shape, times the conical height, into a force of the results."""
         return angular_speed**2 if self.weightless else self._force(gravity) / conical_height
 
     def _pull(self, gravity: float) -> tuple[float, float] | None:

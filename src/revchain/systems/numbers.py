@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks of the arguments of users, and conversion to the float64 arrays that the compiled module takes."""
+"""Checks of arguments, and conversion to the float64 arrays that the compiled module takes."""
 
 from __future__ import annotations
 
@@ -239,7 +239,7 @@ def beside(caller: str, **arrays: NDArray[np.generic]) -> list[NDArray[Any]]:
 
 
 def as_length(caller: str, name: str, value: Any) -> Any:
-    """`value`, a force expressed as a length of chain of that weight; a ValueError if it has a unit."""
+    """`value`, a force as a length of chain of that weight; a ValueError if it has a unit."""
     if units.has_units(value):
         why = "it is the length of chain or rope that weighs as much"
         raise ValueError(f"{caller}: {name} must be a number without a unit ({why}), got {shown(value)}")

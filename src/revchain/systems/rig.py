@@ -103,7 +103,7 @@ class Support(_Fitting):
         Mass (kg) or weight (N) that moves horizontally with the pin, in the same quantity as the chain.
     radius : float
         Radius of the circle in which the support is carried round, m; 0 on the axis. With a spring it is the radius of
-        its rest position. At an end of a `Held` it may be negative: on the other side of the axis.
+        its rest position.
 
     Raises
     ------
@@ -167,7 +167,7 @@ class Support(_Fitting):
 
     @property
     def stiffness(self) -> float:
-        """Stiffness of the spring, N/m; infinite for a firm support, 0 for a trolley that rolls freely."""
+        """Stiffness of the spring, N/m; infinite for a firm support."""
         return float(self._given.get("stiffness", 0.0 if {"mass", "weight"} & self._given.keys() else math.inf))
 
     @property
@@ -410,7 +410,7 @@ class Displaced(_Fitting):
 
     @property
     def _bears(self) -> bool:
-        """Whether any fluid is displaced or moves with a link; if not, its position matters for derivatives alone."""
+        """Whether any fluid is displaced or moves with a link."""
         return any(value.any() for name, value in self._given.items() if name in _HEAVY)
 
 
@@ -714,7 +714,7 @@ class Rig(System):
         return f"Rig of a chain of {links}: {', '.join(with_what + self._extras()) or 'nothing added'}"
 
     def _state(self) -> tuple[Any, ...]:
-        """Return the parts that make up the rig, for pickles and copies with one part changed."""
+        """The parts that make up the rig."""
         fittings = (self.support, self.flywheels, self.displaced, self.pins)
         given = tuple(None if fitting is None else dict(fitting._given) for fitting in fittings)
         return self.chain, *given, self.fluid, self._inverted, self.drag

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers with units: text such as "39 inch" and pint quantities, converted to SI; the argument's name tells the kind."""
+"""Numbers with units: text such as "39 inch" and pint quantities, converted to SI."""
 
 from __future__ import annotations
 
