@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Chains that whirl: natural frequencies, whirl speeds, steady shapes (relative equilibria), with bounds of their errors.
 
-A chain of rigid links hangs from a support. It can be a single point mass, and its limit is a flexible cord. At its
-critical speeds it leaves the vertical and whirls about it as one rigid figure. For a chain hung from a fixed point the
-whirl speed of small amplitude is the natural angular frequency of its swing in a plane. Theory: G. Greenhill, "The
-Revolving Chain" (1908).
+A chain of rigid links hangs from a support and whirls about the vertical as one rigid figure. For a chain hung from a
+fixed point the whirl speed of small amplitude is the natural angular frequency of its swing in a plane. Theory:
+G. Greenhill, "The Revolving Chain" (1908).
 
 Systems
     Chain, Rig (with Support, Pin, Flywheel, Displaced), Cord, Held; SupportMotion, Drag
@@ -15,8 +14,7 @@ Questions
 Results
     Modes, SteadyShapes, SteadyShape, Branches, Branch,
     Stability, ForceDiagram, Response, Swing, Campbell, DragShape, Tuned, Fitted, Explanation, Sensitivity, Uncertainty,
-    WorstCase; ``load`` reads the files that their method ``save`` wrote. Variants of these, and classes of their fields,
-    are in the reference.
+    WorstCase; ``load`` reads the files that their method ``save`` wrote
 Closed forms
     conical_pendulum, plummet, two_links, elliptic, hoop, bell_and_clapper, funicular_polygon, transverse_modes,
     recurrence_matrices; BellAndClapper, BufferImpact, GovernorMotion, SleeveGovernor, GyrostaticString, SkippingRope,
@@ -29,8 +27,7 @@ C++
 
 Links are listed from the free end up, unless a chain is given in the other order. Numbers are in SI units; text such
 as "39 inch" is converted. Links and pins are counted from 0, modes from 1. The *conical height* of a speed is
-``gravity / speed**2``, the height of the conical pendulum with that speed; conical heights of chains do not depend on
-gravity.
+``gravity / speed**2``, the height of the conical pendulum with that speed.
 
 Examples
 --------

@@ -35,16 +35,16 @@ _OTHER_WORDS = {  # attributes of MuJoCo that mean a word
 
 
 class ModelWarning(UserWarning):
-    """A warning that lists what `from_mjcf` or `from_urdf` left out of a model or changed, with the model's gravity.
+    """A warning that lists what `from_mjcf` or `from_urdf` left out of a model or changed.
 
     Attributes
     ----------
     gravity : float
         Acceleration of gravity in the model, m/s^2: the argument `gravity` of questions about the system.
     left_out : tuple of str
-        One sentence for each part that `ignore` or `links` left out.
+        Sentences on what `ignore` or `links` left out.
     remarks : tuple of str
-        Sentences on what was changed or guessed or has no effect, and the warnings of MuJoCo.
+        Sentences on what was changed or guessed or has no effect.
 
     Examples
     --------
@@ -96,7 +96,7 @@ class Findings:
     def obstacle(self, place: tuple[str, int], what: str, instead: str, word: str = "", *, links: str = "") -> None:
         """Note what cannot be read, with what to write instead; or what is left out, if the caller ignores its word.
 
-        `links` is the argument that takes one of several chains, if the obstacle is that there are several.
+        `links` is the argument that takes one of several chains.
         """
         if word in self.ignore:
             self.left_out.append(Sentence(place, what))

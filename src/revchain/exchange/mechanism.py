@@ -2,10 +2,8 @@
 """A chain or rig as a multibody engine builds it, and its states of steady motion, in kg, m, s and rad.
 
 The support turns about the vertical; each link has two hinges at its upper pin, one that inclines it in the turning plane
-and one that moves it out of it. A link without a wheel has no moment of inertia about its own axis, so that only its direction
-counts. Without springs and dashpots at pins and without a dashpot at the support, a support on the axis neither drives the
-chain nor is driven by it. In steady motion all joints but that of the support are at rest. Springs and dashpots at a pin
-act on both of its hinges.
+and one that moves it out of it. A link without a wheel has no moment of inertia about its own axis. Springs and dashpots at
+a pin act on both of its hinges.
 """
 
 from __future__ import annotations
@@ -50,11 +48,9 @@ class Mechanism:
     wheeled : array of bool, shape (N,)
         Whether a link has a wheel that carries an angular momentum along it.
     pin_stiffness, pin_damping, rest : array, shape (N,)
-        Springs and dashpots at the upper pins, and the angles of the hinges at which the springs are relaxed: 0, or a half
-        turn where a link and the one above it point opposite ways; the support counts as hanging.
+        Springs and dashpots at the upper pins, and the angles of the hinges at which the springs are relaxed.
     radius, stiffness, damping, carriage : float
-        Radius, stiffness and damping of the support, and the mass that moves with it; a firm support has infinite
-        stiffness, a trolley 0.
+        Radius, stiffness and damping of the support, and the mass that moves with it.
     turning : float
         Moment of inertia of the support about the axis.
     gravity : float
@@ -103,8 +99,6 @@ class Mechanism:
     def across(self, k: int, least: float) -> float:
         """Moment of inertia of link k with that of a small ball, `least`.
 
-        The radius of gyration comes back from it exactly unless the moment is near `least` or below.
-
         The forces of steady motion depend on the moment across a link less that along it, which the ball does not change.
         """
         up = down = float(self.moment[k]) + least
@@ -130,7 +124,7 @@ class State:
 
 
 def mechanism(function: str, given: Any, gravity: float | None, several: bool = True) -> tuple[Mechanism, list[State]]:
-    """The bodies of a system, or of the system of shapes (one, if not `several`), and its states: at rest, or the shapes."""
+    """The bodies of a system, or of that of shapes (one, if not `several`), and its states: at rest, or the shapes."""
     shapes = [given] if isinstance(given, SteadyShape) else list(given) if isinstance(given, SteadyShapes) else None
     system = given if shapes is None else given.system
     if not isinstance(system, Chain | Rig):

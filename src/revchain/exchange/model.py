@@ -297,7 +297,7 @@ class Model(Compiled):
     # ---- the links
 
     def _moves_in_a_plane(self, parts: list[_Part]) -> bool:
-        """Return whether all joints are parallel hinges. If these are inclined, gravity in the plane is less."""
+        """Return whether all joints are parallel hinges."""
         every = [j for part in parts for j in part.joints]
         if len(every) > len(parts) or any(self.model.jnt_type[j] != self.hinge for j in every):
             return False

@@ -32,36 +32,34 @@ def from_mjcf(
     source : path-like or str
         Path of the file, or its text, which begins with ``<``.
     ignore : str or tuple of str
-        What to leave out where a chain cannot have it: words such as ``"damping range"``, or ``"all"``. The error message
-        names the words that help; the table below lists them.
+        What to leave out where a chain cannot have it: words of the table below, such as ``"damping range"``, or ``"all"``.
     links : str or tuple of str, optional
         Names of the bodies that are the links, if more than one body hangs from another.
 
     Returns
     -------
     Chain or Rig
-        By mass; a `Rig` if the model has a support on an arm, a spring or a trolley, springs or dashpots at pins, or axial
-        moments of inertia that turn with the support. Numbers that a link has in the file are the same to the last digit.
+        By mass; a `Rig` where a `Chain` does not suffice.
 
     Warns
     -----
     ModelWarning
-        If something was left out, changed or guessed (where the free end is), or if gravity is not the standard one. The
-        warning lists each element, with its line where that is known, and has the gravity to give to questions.
+        If something was left out, changed or guessed, or if gravity is not the standard one. The warning has the gravity to
+        give to questions.
 
     Raises
     ------
     ValueError
-        If the model is not a serial chain: one message with all obstacles, each with its element, its line where known, and
-        what to do; or if `ignore` has an unknown word or `links` an unknown body.
+        If the model is not a serial chain (the message lists the obstacles and what to do), or if `ignore` has an unknown
+        word or `links` an unknown body.
     ImportError
-        If mujoco is not installed; the message says how to install it.
+        If mujoco is not installed.
     OSError
         If the file cannot be read.
 
     Notes
     -----
-    Words of `ignore`, for which the attributes of MuJoCo, such as ``frictionloss`` and ``limited``, are accepted too:
+    Words of `ignore`:
 
     ============= =======================================================================================
     word          what is left out
@@ -81,19 +79,18 @@ def from_mjcf(
     ============= =======================================================================================
 
     A link hangs down, whatever its pose in the file; it stands (is `inverted`) where a spring at its pin holds it so.
-    Bodies fixed to each other are one link. The lower pin of a link is where the next body is hinged. The free end of the
-    lowest link is the only massless body fixed to it, else its only site, the far end of its geoms, or its centre of
-    gravity; no speed depends on it.
+    Bodies fixed to each other are one link. The lower pin of a link is where the next body is hinged. The free end, on
+    which no speed depends, is the only massless body fixed to the lowest link, else its only site, the far end of its
+    geoms, or its centre of gravity.
 
-    If all joints are parallel hinges, the links move in one plane. Offsets along the hinges then have no effect. A link
-    whose centre of gravity lies beside the line of its pins is read as the straight link with the same small motion; a last
-    body that turns freely about its centre of gravity is a point mass. Inclined hinges reduce the gravity in that plane.
+    If all joints are parallel hinges, the links move in one plane. A link whose centre of gravity lies beside the line of
+    its pins is then read as the straight link with the same small motion, and a last body that turns freely about its
+    centre of gravity as a point mass. Inclined hinges reduce the gravity in that plane.
 
     Stiffness and damping of the joints at a pin, equal in both its hinges, are those of a `Pin`. Bodies on slides above
-    all links are the carriage of a `Support`: a spring, or a trolley if the slide has no stiffness. Links on
-    parallel hinges need one slide, in their plane; others two, at right angles. A hinge about the vertical above all links
-    is a turntable that keeps its speed. Links without a turntable, or on ball joints, do not spin about their own axes:
-    moments of inertia about these axes have no effect and are left out.
+    all links are the carriage of a `Support`: on a spring, or a trolley. Links on parallel hinges need one slide, in their
+    plane; others two, at right angles. A hinge about the vertical above all links is a turntable that keeps its speed.
+    Links without a turntable, or on ball joints, do not spin about their own axes.
 
     Contacts, keyframes, the ends of a rail, and motors that exert no force without a signal are not read.
 
@@ -126,7 +123,7 @@ def from_urdf(
     source : path-like or str
         Path of the file, or its text, which begins with ``<``.
     ignore : str or tuple of str
-        What to leave out where a chain cannot have it, as in `from_mjcf`.
+        Words as in `from_mjcf`.
     links : str or tuple of str, optional
         Names of the links of the chain, if more than one link hangs from another.
 
@@ -138,25 +135,23 @@ def from_urdf(
     Warns
     -----
     ModelWarning
-        If something was left out, changed or guessed (which link is the ground). URDF has no gravity: the warning has that
-        of MuJoCo.
+        If something was left out, changed or guessed. URDF has no gravity: the warning has that of MuJoCo.
 
     Raises
     ------
     ValueError
-        If the file is no serial chain: one message with all obstacles, as from `from_mjcf`; or if `ignore` has an unknown
-        word or `links` an unknown name.
+        If the file is no serial chain, `ignore` has an unknown word, or `links` an unknown name.
     ImportError
-        If mujoco is not installed; the message says how to install it.
+        If mujoco is not installed.
     OSError
         If the file cannot be read.
 
     Notes
     -----
     The root link is the ground, and so is a link ``world`` that is not declared. Point masses, moments of inertia that no
-    body has, namespaces, meshes, and limits whose two ends are equal are put right before MuJoCo compiles the file, as it
-    may refuse them. The warning lists all these but namespaces. A link without mass and length is part of the joint below
-    it. The free end of the lowest link is a link without mass fixed to it, or else as in `from_mjcf`.
+    body has, namespaces, meshes, and limits whose two ends are equal are put right before MuJoCo compiles the file. A link
+    without mass and length is part of the joint below it. The free end of the lowest link is a link without mass fixed to
+    it, or else as in `from_mjcf`.
 
     Examples
     --------
@@ -169,7 +164,7 @@ def from_urdf(
 
 
 class Imported(NamedTuple):
-    """A system read from a file, the gravity of the model, its title, and what the reader has to say about it."""
+    """A system read from a file, the gravity of the model, its title, what was left out, and remarks."""
 
     system: Chain | Rig
     gravity: float

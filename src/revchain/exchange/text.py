@@ -36,13 +36,12 @@ class Text:
     Attributes
     ----------
     root : Element
-        The root, in which unnamed bodies, joints and so on have names of ours, and what MuJoCo refuses without need is
-        replaced.
+        The root, in which unnamed elements have names, and what MuJoCo refuses without need is replaced.
     inertia : dict
         By the name of a body: moments of inertia in the frame of its ``inertial`` that MuJoCo would refuse, as 3 x 3 array.
         The root has others in their place.
     least : float
-        The mass and moment of inertia of a moving body that count as 0, as MuJoCo takes no 0.
+        The mass and moment of inertia of a moving body that count as 0.
     """
 
     def __init__(self, text: str | bytes, path: str, findings: Findings) -> None:
@@ -313,7 +312,7 @@ class Text:
     # ---- both
 
     def _mend_inertial(self, inertial: Element, name: str) -> None:
-        """Give MuJoCo moments of inertia that it takes, where it would refuse those of the file; keep these."""
+        """Replace moments of inertia that MuJoCo would refuse; keep those of the file."""
         if "boundinertia" in self.settings or "true" in map(self.settings.get, ("balanceinertia", "inertiafromgeom")):
             return  # MuJoCo makes others of them
         with suppress(ValueError):  # no numbers: MuJoCo says so

@@ -39,50 +39,43 @@ def to_mjcf(
     Parameters
     ----------
     system : Chain, Rig, SteadyShape or SteadyShapes
-        A system is at rest in the keyframe of the model. A shape is a keyframe from which MuJoCo continues the steady
-        motion; a list of shapes gives one keyframe per shape.
+        A system is at rest in the keyframe of the model. A shape is a keyframe in steady motion; a list of shapes gives one
+        keyframe per shape.
     path : path-like, optional
         Where to write the text.
     gravity : float, optional
         Acceleration of gravity, m/s^2; standard gravity if left out. Only for a system: a shape has its own.
     timestep : float, optional
         Time step of the integrator, s. If left out: a hundredth of the oscillation of the least mass on the shortest link
-        under the greatest tension, less with springs and dashpots, and for a shape at most a thousandth of a turn. Give it
-        for links with a short centroid, which may oscillate faster.
+        under the greatest tension, less with springs and dashpots, and for a shape at most a thousandth of a turn.
 
     Returns
     -------
     str
-        The model as XML, with all digits. Masses are in kg: weights divided by gravity. Springs and dashpots are in N/m,
-        N m/rad, N s/m and N m s/rad, as those of the system with its masses in kg or its weights in N.
+        The model as XML, with all digits, in kg, m, N and rad. Weights are divided by gravity.
 
     Raises
     ------
     ValueError
-        If the system is a cord or held at both ends, stands in a fluid, has linear drag, a flywheel in a link without
-        moment of inertia, links that meet at a pin without mass, or more than 490 links; if `gravity` is given with a
-        shape; if the list of shapes is empty; if a number is out of its range; or if the file cannot be written (the
-        error is also an OSError).
+        If the system is a cord or held at both ends, stands in a fluid, or has linear drag or more than 490 links; if a
+        number is out of its range; or if the file cannot be written (the error is also an OSError).
     TypeError
         If `system` is of another class.
 
     Notes
     -----
-    A ``turntable`` turns about the vertical and carries the upper pin. Each link has two hinges there: ``inclination``, in
-    the turning plane, and ``sideways``, out of it. In steady motion only the turntable and the wheels turn. A turntable
-    on the axis exerts no torque on a chain without springs and dashpots at pins and without a dashpot at the support. One
-    with an arm, or of a system with dashpots, has a moment of inertia large enough to keep its speed to 12 digits, or to
-    stand still. A link with a flywheel has a wheel with half of its mass, which carries the same angular momentum.
+    A ``turntable`` turns about the vertical and carries the upper pin. Each link has two hinges at its upper pin:
+    ``inclination``, in the turning plane, and ``sideways``, out of it. In steady motion only the turntable and the wheels
+    turn. A turntable with an arm, or of a system with dashpots, has a moment of inertia large enough to keep its speed to
+    12 digits, or to stand still. A link with a flywheel has a wheel with half of its mass and the same angular momentum.
 
     A support on a spring, or a trolley, is a ``carriage`` on two slides, ``carriage_x`` and ``carriage_y``, with the
     support's stiffness and damping. Springs and dashpots at a pin are the stiffness and damping of both its hinges. The
     springs are relaxed where the chain hangs straight, or with its inverted links upright. Small motions about this
-    position are those of `modes`. Where several links leave the plane of a shape, hinge dashpots take more energy than
-    those of `SteadyShape.stability`: there links also turn about their axes.
+    position are those of `modes`.
 
-    MuJoCo accepts no moment of inertia below 1e-15 kg m^2. This amount is added to each link about all axes, as for a
-    small ball. Steady motion is unchanged; disturbed motion changes by the ratio of this amount to the moment of
-    inertia about the pin.
+    A moment of inertia of 1e-15 kg m^2, the least that MuJoCo accepts, is added to each link about all axes. Steady motion
+    is unchanged.
 
     Examples
     --------
@@ -123,13 +116,13 @@ def to_urdf(
     Returns
     -------
     str
-        The model as XML, with all digits. URDF has no velocities: a shape is in steady motion if the joint ``turn`` has the
-        velocity ``shape.direction * shape.angular_speed``, all others being 0.
+        The model as XML, with all digits. A shape is in steady motion if the joint ``turn`` has the velocity
+        ``shape.direction * shape.angular_speed``, all others being 0.
 
     Raises
     ------
     ValueError
-        As for `to_mjcf`; also for flywheels, springs and trolleys: URDF has no springs and no velocities.
+        As for `to_mjcf`; also for flywheels, springs and trolleys.
     TypeError
         If `system` is of another class, such as a list of shapes.
 

@@ -70,10 +70,7 @@ _ONLY: dict[tuple[str, str], tuple[Any, str]] = {
 
 
 def arguments(question: str, table: Table, system: System | None, numbers: Numbers) -> Given:
-    """The keyword arguments of a table; errors are noted.
-
-    If the system was refused (None), only the keys that do not depend on it are checked.
-    """
+    """The keyword arguments of a table; errors are noted. Keys that depend on the system are not checked without one."""
     numbers = numbers.of(f"ask.{question}")
     if system is not None and isinstance(system, SleeveGovernor) != (question == "equilibria"):
         instead = "write [ask.equilibria]" if question != "equilibria" else "write [ask.modes] or [ask.shapes]"
@@ -249,7 +246,7 @@ _CHECKS: dict[str, Callable[[Any, Given, Whirling | None, Numbers], None]] = {
 
 
 def notes_on(scene: Tables, question: str, table: Table, system: System, given: Given, options: bool) -> tuple[str, ...]:
-    """Notes about what the answer to a question leaves out, and about plain numbers that were read in rad/s."""
+    """Notes on what the answer to a question leaves out, and on plain numbers that were read in rad/s."""
     notes = []
     if question not in ("drag", "equilibria") and has_air_drag(scene):
         notes.append("the drag of air is left out here: air_drag acts in [ask.drag] only")
@@ -272,7 +269,7 @@ def notes_on(scene: Tables, question: str, table: Table, system: System, given: 
 
 
 def is_driven_trolley(system: System, motion: SupportMotion | None) -> bool:
-    """Return whether a support that rolls freely has a prescribed motion, so that its mass and its dashpot do not matter."""
+    """Return whether a support that rolls freely has a prescribed motion."""
     if motion is None or motion._what == "force" or not isinstance(system, Rig):
         return False
     support = system.support

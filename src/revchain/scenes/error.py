@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 
 class Problem(NamedTuple):
-    """One error of a scene: line, column, key and reason; line and column are 0 without a file that can be read."""
+    """One error of a scene: line, column, key and reason."""
 
     line: int
     column: int
@@ -17,16 +17,14 @@ class Problem(NamedTuple):
 
 
 class SceneError(ValueError):
-    """The error for a scene or study that cannot be read or answered; it lists the problems and where they are.
+    """The ValueError for a scene or study that cannot be read or answered; it lists the problems and where they are.
 
     Attributes
     ----------
     source : str
         Name of the file; without one ``"scene"`` or ``"study"``.
     problems : tuple of (line, column, key, reason)
-        The problems in the order of the file; after a syntax error that cannot be repaired, only those up to it. What
-        depends on a wrong value is not checked, and of a list with items of wrong types the first item is named. Lines
-        and columns count from 1; both are 0 without a file that can be read. A key is a path such as
+        The problems found. Lines and columns count from 1, or are 0 if unknown. A key is a path such as
         ``links[2].length``, with tables counted from 0; it is empty for the whole file.
     key, reason : str
         Key and reason of the first problem.

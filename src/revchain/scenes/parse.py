@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checked data from the text of a scene or study file; errors are collected, so that one run shows many."""
+"""Checked data from the text of a scene or study file, and its errors."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def text_of(path: str | os.PathLike[str]) -> str:
 def opened(path: str | os.PathLike[str]) -> Iterator[tuple[Any, list[Problem], str]]:
     """The raw content of a .toml or .json file, its common errors of syntax, which are repaired, and its text.
 
-    Each problem found in this file inside the with statement gets its line and column.
+    Problems found in this file inside the with statement get their lines and columns.
     """
     text = text_of(path)
     lines, problems = text.split("\n"), list[Problem]()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The report of a scene: one HTML file with the system, all answers, their bounds and pictures, to hand to a colleague."""
+"""The report of a scene: one HTML file with the system, the answers, their bounds and pictures."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ TERMS = {
 }
 
 def further_sheets(found: Any) -> list[Sheet]:
-    """Return the tables beside that of an answer: proof, other solutions, governor, stability windows, pins at one speed."""
+    """Return the tables beside that of an answer, such as a proof or stability windows."""
     sheets: list[Sheet] = []
     for name in ("certificate", "other", "governor"):
         part = getattr(found, name, None)
@@ -116,7 +116,7 @@ def _pins(found: Response) -> Sheet:
 
 
 def drawn(found: Any) -> dict[str, Any]:
-    """Return how an answer is drawn: a swing at many times, whose shapes hide one another, as offsets against time."""
+    """Return how an answer is drawn: a swing at many times as offsets against time."""
     if not isinstance(found, Swing) or found.time.size <= MANY_TIMES:
         return {}
     size = found.system.size
@@ -171,7 +171,7 @@ WORDS = {"proved": "Proved", "computed": "Computed", "open": "Not proved"}
 
 
 def verdicts(found: Any) -> list[Verdict]:
-    """Return what is proved about an answer, and what is not, in words for a reader who does not know the program."""
+    """Return what is proved about an answer, and what is not, in words."""
     short = shortfall(found)
     said = [Verdict("open", _sentence(short))] if short else []
     makers: dict[type, Callable[[Any], list[Verdict]]] = {
@@ -653,7 +653,7 @@ def _aligned(texts: list[str]) -> list[str]:
 
 
 def _picture(draw: Any, alternative: str, kind: str) -> str:
-    """A picture in the page itself. As an image, so that names within it do not meet those of another picture."""
+    """A picture in the page itself, as an image, so that its names do not meet those of another picture."""
     matplotlib = require("matplotlib", "plot", "a report")
     with matplotlib.rc_context({"svg.hashsalt": "revchain", "svg.fonttype": "path", "figure.facecolor": "white"}):
         figure = draw().figure

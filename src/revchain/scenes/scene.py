@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scene files: a system and questions about it. They are read and validated by msgspec."""
+"""Scene files: a system and questions about it."""
 
 import os
 import re
@@ -48,7 +48,7 @@ _LINKS = '{"links": [{"mass": 0.1, "length": 0.5}, {"mass": 0.3, "length": 0.5}]
 def _asking(
     question: str, what: str, result: str, example: str, kind: Callable[[], type[Answer]], of: str = _LINKS
 ) -> Callable[..., Answer]:
-    """The method of `Scene` that answers one question; `kind` is never called and tells type checkers what it returns."""
+    """The method of `Scene` that answers one question; `kind` tells type checkers what it returns."""
 
     def ask(self: Any, **changed: Any) -> Answer:
         return self._answer(question, changed)  # type: ignore[no-any-return]
@@ -64,13 +64,12 @@ def _asking(
         Returns
         -------
         {result}
-            The result of the function of that name.
+            The answer.
 
         Raises
         ------
         SceneError
-            If neither the scene nor `changed` has a key that the question needs, or if the function refuses the arguments.
-            A SceneError is a ValueError; it counts links as the tables of the scene do.
+            If a key that the question needs is missing, or a value is refused.
 
         Examples
         --------
@@ -87,10 +86,8 @@ class Scene(Tables, frozen=True, weakref=True):
     Notes
     -----
     The attributes are the keys of the file (`revchain schema` describes each). Plain numbers are in SI units;
-    text such as ``"39.1396 inch"`` is converted by pint. The methods `modes`, `steady_shapes`, `response`, `swing`,
-    `branches`, `campbell` and `drag_shape` call the function of that name with the system, the gravity and the
-    arguments of the scene; `equilibria` calls the method of a `SleeveGovernor`, or returns the governor if no speed is
-    given. Arguments given to a method replace those of the scene.
+    text such as ``"39.1396 inch"`` is converted. Methods such as `modes` answer the questions of the scene; arguments
+    given to them replace those of the scene.
 
     Examples
     --------
@@ -127,8 +124,7 @@ class Scene(Tables, frozen=True, weakref=True):
         Raises
         ------
         SceneError
-            If the data are not a valid scene. The error is a ValueError; it has the source, and the key and the reason of
-            each problem.
+            If the data are not a valid scene.
 
         Examples
         --------
@@ -140,7 +136,7 @@ class Scene(Tables, frozen=True, weakref=True):
 
     @classmethod
     def _read(cls, data: Any, source: str, problems: list[Problem]) -> Self:
-        """The scene; one error for all problems, with those of its syntax."""
+        """The scene; one error for its problems and those of its syntax."""
         if isinstance(data, dict) and "vary" in data:
             raise SceneError(source, "vary", f"is of a study, not of a scene: revchain sweep {source}")
         scene = parse.convert(data, cls, source, problems)
@@ -177,7 +173,7 @@ class Scene(Tables, frozen=True, weakref=True):
         Raises
         ------
         SceneError
-            If the numbers do not describe a possible system, or gravity is not a positive acceleration.
+            If the numbers do not describe a possible system.
 
         Examples
         --------
@@ -188,13 +184,12 @@ class Scene(Tables, frozen=True, weakref=True):
         return self._built()[1]
 
     def system(self) -> System:
-        """Return the system of the scene in SI units, by mass, or by weight if the scene has a weight and gravity.
+        """Return the system of the scene, in SI units.
 
         Returns
         -------
         Chain, Rig, Cord, Held or SleeveGovernor
-            The system. A chain is a rig if the scene has a support, flywheels, displaced fluid, pins, linear drag or
-            inverted links.
+            The system.
 
         Raises
         ------
@@ -214,7 +209,7 @@ class Scene(Tables, frozen=True, weakref=True):
 
     @property
     def asks(self) -> tuple[str, ...]:
-        """Names of the questions for which the scene has a table, such as modes, shapes, response, swing, branches."""
+        """Names of the questions for which the scene has a table, such as ``"modes"``."""
         return tuple([name for name in QUESTIONS if getattr(self.ask, name) is not UNSET])
 
     @property
@@ -280,10 +275,10 @@ class Scene(Tables, frozen=True, weakref=True):
         return {question: self._answer(question, {}) for question in self._questions}
 
     def report(self, path: str | os.PathLike[str]) -> None:
-        """Answer all questions of the scene and write a report, to hand to a colleague.
+        """Answer all questions of the scene and write a report.
 
-        The report is one HTML file that needs no other file and no network: the system in words and in a scale drawing, each
-        answer with its table, bounds and picture, what is proved, the text of the scene, and how to repeat it.
+        The report is one HTML file that needs no other file and no network: the system in words and in a drawing, the
+        answers with tables, bounds and pictures, the text of the scene, and how to repeat it.
 
         Parameters
         ----------
@@ -297,14 +292,13 @@ class Scene(Tables, frozen=True, weakref=True):
         SceneError
             If a function refuses the system or its arguments.
         ImportError
-            If matplotlib is not installed; the message says how to install it.
+            If matplotlib is not installed.
         OSError
-            If the file cannot be written (the error is also a ValueError). An existing file stays until the new one is
-            complete.
+            If the file cannot be written (the error is also a ValueError).
 
         Notes
         -----
-        Cost: that of the answers, about 0.1 s for each picture (0.4 s for many branches), and 0.3 s to load matplotlib.
+        Cost: that of the answers and their pictures.
 
         Examples
         --------
@@ -353,7 +347,7 @@ class Scene(Tables, frozen=True, weakref=True):
             raise self._in_file(error, question, changed) from None
 
     def _problem_of(self, error: ValueError, question: str, table: Table) -> Problem:
-        """An error of the function of a question as a problem of the key of which it speaks, or of the question's table."""
+        """An error of the function of a question as a problem of the key that it names, or of the question's table."""
         found = problem_of(error, "", self._bodies())
         if found.key:
             return found
@@ -477,13 +471,12 @@ def load_scene(path: str | os.PathLike[str]) -> Scene:
     Returns
     -------
     Scene
-        The scene; its methods return the system and the answers.
+        The scene.
 
     Raises
     ------
     SceneError
-        If the file cannot be read or is not a valid scene. The error is a ValueError; it gives the file and, for each
-        problem, the line, column, key and reason.
+        If the file cannot be read or is not a valid scene.
 
     Examples
     --------

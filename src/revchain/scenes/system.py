@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The system of a scene, built from its tables: units, masses and weights, repeated links; each error has its key."""
+"""The system of a scene, built from its tables."""
 
 from __future__ import annotations
 
@@ -38,8 +38,7 @@ def option(key: str) -> str:
 class Numbers:
     """Numbers of one table: text with units converted, ranges checked, errors noted with the key path.
 
-    A wrong number is NaN; `done` raises one error for all of them. If the scene has no weight or no gravity,
-    masses stay masses, else they are multiplied by gravity.
+    A wrong number is NaN; `done` raises one error for all of them.
     """
 
     def __init__(

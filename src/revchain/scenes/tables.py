@@ -35,7 +35,7 @@ fields_of = cache(fields)  # `fields` takes a millisecond in each call
 
 
 class Table(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True, repr_omit_defaults=True, kw_only=True):
-    """The base of all tables of a scene: fixed keys, no positional arguments; numbers in SI units or with a unit."""
+    """The base of the tables of a scene: numbers in SI units or with a unit."""
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle only the given values: msgspec recognizes defaults, which `to_dict` leaves out, by identity."""
@@ -54,7 +54,7 @@ class Flywheel(Table, frozen=True):
     weight: Annotated[MaybeNotNegative, says("Weight of the wheel (N); or give mass.")] = UNSET
     mass: Annotated[MaybeNotNegative, says("Mass of the wheel (kg); or give weight.")] = UNSET
     driven: Annotated[
-        bool, says("Whether a motor keeps the spin relative to the link constant; else the wheel runs freely.")
+        bool, says("Whether a motor keeps the spin relative to the link; else the wheel runs freely.")
     ] = False
 
 
@@ -81,7 +81,7 @@ class Pin(Table, frozen=True):
 
 
 class AirDrag(Table, frozen=True):
-    """Drag of air on a link, for [ask.drag]: on the link as a cylinder, on a body at its centre of gravity, or on both."""
+    """Drag of air on a link, for [ask.drag]: on a cylinder, on a body at its centre of gravity, or on both."""
 
     coefficient: Annotated[NotNegative, says("Drag coefficient: 1.0 to 1.2 for a cylinder, 0.5 for a sphere.")]
     diameter: Annotated[MaybeNotNegative, says("Diameter of the link as a cylinder (m).")] = UNSET
@@ -183,13 +183,13 @@ class Cord(Whole, frozen=True, kw_only=True):
     """A flexible cord: the limit of many short links."""
 
     tip_centroid: Annotated[
-        MaybeNotNegative, says("For a bob that turns at its end: distance of the bob's centre of gravity below it (m).")
+        MaybeNotNegative, says("Distance of the centre of gravity of a bob that turns at the end below that end (m).")
     ] = UNSET
     tip_radius_of_gyration: Annotated[
         MaybeNotNegative, says("Radius of gyration of the bob about its centre of gravity (m).")
     ] = UNSET
     masses: Annotated[
-        list[PointMass] | UnsetType, says("Point masses on the cord, beside its own mass; those at one place are added.")
+        list[PointMass] | UnsetType, says("Point masses on the cord, beside its own mass.")
     ] = UNSET
 
     density: Annotated[
@@ -207,7 +207,7 @@ class End(Support, frozen=True):
 
 
 class Held(Table, frozen=True):
-    """Data of a chain or cord held at both ends: the span of a bent one, or the tension of a straight one."""
+    """A chain or cord held at both ends, with a span or under a tension."""
 
     span: Annotated[MaybePositive, says("Distance between the ends along the axis (m), less than the length.")] = UNSET
     tension: Annotated[MaybePositive, says("Tension at the upper end (N), instead of span.")] = UNSET
@@ -271,7 +271,7 @@ class AskModes(Table, frozen=True):
 
     count: Annotated[
         Count | Literal["all"] | UnsetType,
-        says('Number of modes, slowest first, or "all"; 10 if left out. If there are fewer, all of them.'),
+        says('Number of modes, slowest first, or "all"; 10 if left out.'),
     ] = UNSET
     first: Annotated[Count | UnsetType, says("Number of the first mode; the slowest mode is 1.")] = UNSET
     angular_speed: Annotated[Pair | UnsetType, says("Window [low, high]: low <= whirl speed < high (rad/s).")] = UNSET
@@ -352,10 +352,7 @@ class AskBranches(Table, frozen=True):
         bool, says("Leave out branches with links above their pins (of a rig: inverted otherwise than in the scene).")
     ] = True
     stability: Annotated[
-        bool, says(
-            "List the windows of stability in the terminal, the report and JSON, and write the verdict at each point to "
-            "JSON and CSV, however long it takes."
-        ),
+        bool, says("Whether to list the windows of stability, and write the verdict at each point to JSON and CSV."),
     ] = False
 
 
@@ -451,7 +448,7 @@ class Tables(Table, frozen=True):
     gravity: Annotated[Positive, says("Acceleration of gravity (m/s^2).")] = STANDARD_GRAVITY
     order: Annotated[
         Literal["free end first", "support first"],
-        says("Order of the links; all indices and lists of the scene and its studies count in it."),
+        says("Order of the links, and of the indices and lists of the scene."),
     ] = "free end first"
     links: Annotated[list[Link] | UnsetType, says("The links, in the given order.")] = UNSET
     uniform_chain: Annotated[UniformChain | UnsetType, says("Equal links, instead of links.")] = UNSET
@@ -466,7 +463,7 @@ class Tables(Table, frozen=True):
         says('Unit of speeds in printed tables and pictures ("s": periods); that of the question if left out.'),
     ] = UNSET
     fluid: Annotated[Literal["still", "turning"], says("Motion of the fluid: at rest, or turning with the chain.")] = "still"
-    held: Annotated[Held | UnsetType, says("Data of a chain or cord that is held at both ends.")] = UNSET
+    held: Annotated[Held | UnsetType, says("Span or tension of a chain or cord held at both ends.")] = UNSET
     ask: Annotated[Ask, says("Questions to answer.")] = Ask()
 
     def _links(self) -> Links:

@@ -25,28 +25,24 @@ _GROUPS = 6  # of equal links that are described in words
 class Chain(System):
     """A chain of rigid links that hangs from a support, listed from the free end up.
 
-    Give each quantity as one number for every link, or as an array with one number for each link. At least one must be
-    an array, unless the chain has a single link. With only mass and length a link is a point mass on a massless thread
-    (plummet). With `centroid` and an inertia it is a rigid body. Numbers are in SI units. Text with a unit
-    (``"39 inch"``) and pint quantities are converted.
+    Give each quantity as one number, or as an array with one number for each link. Without an array the chain has one
+    link. With only mass and length a link is a point mass on a massless thread (plummet). With `centroid` and an inertia
+    it is a rigid body. Numbers are in SI units. Text with a unit (``"39 inch"``) and pint quantities are converted.
 
     Parameters
     ----------
     mass : array_like, shape (N,) or scalar
         Mass of each link, kg, not negative. A link of mass 0 is a massless thread; the lowest link must have mass.
     weight : array_like, shape (N,) or scalar
-        Weight of each link, instead of `mass`. For a chain alone any unit will do, because its speeds depend only on the
-        ratios. Forces in results are in this unit; with `mass` they are in newtons.
+        Weight of each link, instead of `mass`. Forces in results are in its unit; with `mass` they are in newtons.
     length : array_like, shape (N,) or scalar
         Distance between the pins of each link, m, positive.
     centroid : array_like, shape (N,) or scalar, optional
-        Distance of the centre of gravity below the *upper* pin, m; negative if it lies above the pin. If left out,
-        the links are point masses: all the weight is at the lower pin.
+        Distance of the centre of gravity below the *upper* pin, m; negative if it lies above the pin.
     pendulum_length : array_like, shape (N,) or scalar, optional
         Length of the equivalent simple pendulum about the upper pin, m.
     radius_of_gyration : array_like, shape (N,) or scalar, optional
-        Radius of gyration about the centre of gravity, m, not negative. With `centroid`, give either
-        this or `pendulum_length`.
+        Radius of gyration about the centre of gravity, m, instead of `pendulum_length`.
     order : {"free end first", "support first"}
         Order of the links in the arrays you give. Indices in paths (``links[0].mass``) and tables count in this order.
         Arrays of results, and of flywheels and other fittings, begin at the free end.
@@ -58,17 +54,12 @@ class Chain(System):
     TypeError
         If a quantity is given without its name, or no length is given.
     ValueError
-        If a number is not real and finite, or has a unit of another kind; if arrays have more than one dimension or
-        different lengths, or there are no links; if a length is not positive, a mass is negative, the lowest link has
-        no mass, the sum of masses or lengths overflows, or lengths and radii of gyration are too far apart; if a radius
-        of gyration is negative or imaginary, or a link would be inverted; if `centroid` is given without exactly one of
-        `pendulum_length` and `radius_of_gyration`, or one of these without `centroid`; if not exactly one of `mass` and
-        `weight` is given; if `order` is another word; if `names` does not have a text for each link.
+        If a number is out of its range, a link would be inverted, arrays differ in length, or the arguments do not go
+        together.
 
     Notes
     -----
-    A mass, length or centroid given for all links is stored once, inertia if lengths and centroids are, too. Cost: O(N),
-    when the chain is made.
+    Cost: O(N), when the chain is made.
 
     References
     ----------
@@ -90,8 +81,7 @@ class Chain(System):
         "_compiled": None,
         "_names": None,
         "by_mass": "Whether the chain was given by mass, not by weight.",
-        "order": "Order in which the links were listed, in which paths and tables count them: ``'free end first'`` or "
-        "``'support first'``.",
+        "order": "Order in which the links were listed: ``'free end first'`` or ``'support first'``.",
     }
     _compiled: _core.Chain
     _names: tuple[str, ...] | None
@@ -169,7 +159,7 @@ class Chain(System):
         length : float
             Length of the WHOLE chain, m, positive.
         weight, mass : float, optional
-            Weight of the WHOLE chain or, instead, its mass in kg, positive; the weight is 1 if both are left out.
+            Weight of the WHOLE chain or its mass in kg, positive; the weight is 1 if both are left out.
 
         Returns
         -------
@@ -178,7 +168,7 @@ class Chain(System):
         Raises
         ------
         ValueError
-            If `count` is below 1, the length, weight or mass is not positive and finite, or both mass and weight are given.
+            If a number is out of its range, or both mass and weight are given.
 
         Notes
         -----
@@ -209,7 +199,7 @@ class Chain(System):
         length : float
             Length of the WHOLE chain, m, positive.
         weight, mass : float, optional
-            Weight of the WHOLE chain or, instead, its mass in kg, positive; the weight is 1 if both are left out.
+            Weight of the WHOLE chain or its mass in kg, positive; the weight is 1 if both are left out.
 
         Returns
         -------
@@ -218,12 +208,12 @@ class Chain(System):
         Raises
         ------
         ValueError
-            If `count` is below 1, the length, weight or mass is not positive and finite, or both mass and weight are given.
+            If a number is out of its range, or both mass and weight are given.
 
         Notes
         -----
         The conical heights tend to those of a uniform `Cord` with an error proportional to 1 / count**2. Memory: O(1).
-        Source: Greenhill (1908), section 8 (21), for uniform rods.
+        Source: Greenhill (1908), section 8 (21).
 
         Examples
         --------
@@ -249,28 +239,25 @@ class Chain(System):
         length : float
             Length of the WHOLE chain, m, positive.
         weight, mass : float, optional
-            Weight of the WHOLE chain or, instead, its mass in kg, positive; the weight is 1 if both are left out.
+            Weight of the WHOLE chain or its mass in kg, positive; the weight is 1 if both are left out.
         exponent : float
             The line density is proportional to the distance from the free end to this power, above -1 and at most 1000.
-            With 0 the links are uniform rods; with 1 the cord thickens upwards; towards -1 the weight gathers at the
-            free end.
+            With 0 the links are uniform rods; with 1 the cord thickens upwards.
 
         Returns
         -------
         Chain
-            The chain. Its `taper` is the exponent.
 
         Raises
         ------
         ValueError
-            If `count` is below 1 or too many for the memory, the length, weight or mass is not positive and finite, both
-            mass and weight are given, the exponent is out of range, or it leaves the lowest link a weight below 1e-292.
+            If a number is out of its range, the lowest link is too light, or both mass and weight are given.
 
         Notes
         -----
-        The conical heights tend to those of the `Cord` with an error proportional to 1 / count**2; `revchain.modes`
-        with `rtol` uses this. Accuracy: weights within 0.51 ulp; centroids too, for the stored length of a link.
-        Cost: 0.6 microseconds a link. Source: Greenhill (1908), section 4.
+        The conical heights tend to those of the `Cord` with an error proportional to 1 / count**2. Accuracy: weights
+        within 0.51 ulp; centroids too, for the stored length of a link. Cost: 0.6 microseconds a link. Source: Greenhill
+        (1908), section 4.
 
         Examples
         --------
@@ -286,8 +273,7 @@ class Chain(System):
 
     @property
     def taper(self) -> float | None:
-        """Exponent of the line density, if `tapered` made the chain; None for any other chain, including one derived
-        from it."""
+        """Exponent of the line density if `tapered` made the chain, else None."""
         return self._compiled.taper
 
     @property
@@ -297,7 +283,7 @@ class Chain(System):
 
     @property
     def mode_count(self) -> int:
-        """Number of modes: `size`, minus one for each independent motion without inertia, as of pins between threads."""
+        """Number of modes: `size`, minus one for each independent motion without inertia."""
         return self._compiled.mode_count
 
     @property
@@ -344,8 +330,7 @@ class Chain(System):
 
     @property
     def pendulum_length(self) -> Floats:
-        """Length of the equivalent simple pendulum of each link, m, shape (N,); infinite if the centre of gravity is
-        at the upper pin, 0 if all the mass is there; read-only."""
+        """Length of the equivalent simple pendulum of each link, m, shape (N,); read-only."""
         return self._column(self._compiled.pendulum_length)
 
     @property
@@ -371,14 +356,13 @@ class Chain(System):
         Returns
         -------
         Chain
-            A chain in which the link above the pin includes the body. Its mass and centroid are rounded once, and its
-            radius of gyration is kept in double-double. Conical heights are within 3 ulp of the exact body's if no
-            centre of gravity lies above its pin.
+            A chain in which the link above the pin includes the body. Conical heights are within 3 ulp of the exact
+            body's if no centre of gravity lies above its pin.
 
         Raises
         ------
         ValueError
-            If mass and weight are not given as for the chain, there is no such pin, or a number is out of range.
+            If a number is out of its range, or mass and weight are not given as for the chain.
 
         Examples
         --------
@@ -417,7 +401,7 @@ class Chain(System):
         Raises
         ------
         ValueError
-            If there is no such pin, or the length is not positive and finite.
+            If a number is out of its range.
 
         Examples
         --------
@@ -442,7 +426,7 @@ class Chain(System):
         Returns
         -------
         Chain
-            The chain, with N - 1 links. Its conical heights lie between those of the original chain.
+            The chain, with N - 1 links.
 
         Raises
         ------
@@ -605,7 +589,7 @@ class Chain(System):
 
 
 def are_rods(length: ArrayLike, centroid: ArrayLike, radius_of_gyration: ArrayLike) -> Any:
-    """Return, for each link, whether it is a uniform rod; rounded numbers count as equal."""
+    """Return, for each link, whether it is a uniform rod, to rounding."""
     half, spread = np.multiply(length, 0.5), np.divide(length, math.sqrt(12))
     return np.isclose(centroid, half, rtol=1e-12, atol=0.0) & np.isclose(radius_of_gyration, spread, rtol=1e-12, atol=0.0)
 

@@ -21,7 +21,7 @@ _MOST_LENGTHS = 1e5  # of the cord, for the size of a bob: the nodes of larger o
 
 
 class CordData(NamedTuple):
-    """All that a cord is made of; masses or weights."""
+    """The data of a cord; masses or weights."""
 
     length: float
     weight: float
@@ -41,42 +41,35 @@ class Cord(System):
     length : float
         Length of the cord, m, positive.
     mass, weight : float, optional
-        Mass (kg) or weight (N) of the whole cord without its tip. If both are left out, it is the integral of a
-        `density` given as a function, else 1 in the unit of the tip.
+        Mass (kg) or weight (N) of the cord without tip and point masses. If left out, it is the integral of a `density`
+        given as a function, else 1.
     density : float or callable
         Distribution of the mass over the distance s from the free end. A number p above -1, at most 1e4, means ``s**p``
         (0: uniform, 1: thicker towards the support). A function of s must be positive inside the cord; it may have jumps and
-        corners, and at the free end it may vanish or grow as a power. A clasp or another narrow part is found if it is
-        at least a thousandth of the length wide; narrower ones may lie between the places where the function is called:
-        give their ends as `breaks`. If `mass` or `weight` is given, the function is scaled to it; else it is the mass
-        per length, kg/m (with `tip_weight` or `weights`, the weight per length).
+        corners, and vanish or grow as a power at the free end. If `mass` or `weight` is given, the function is scaled to
+        it; else it is the mass per length, kg/m (with `tip_weight` or `weights`, the weight per length).
     tip_mass, tip_weight : float, optional
         Mass (kg) or weight (N) of a point mass or bob at the free end, in the same quantity as the cord.
     masses, weights : mapping of float to float, optional
         Point masses on the cord, such as clasps, kg, or their weights, N: ``{s: mass}`` with s the distance from the free
-        end, m, or ``{"50 cm": "20 g"}``. Not part of `mass`. Masses at one place, such as 0.5 and ``"50 cm"``, are added.
+        end, m, or ``{"50 cm": "20 g"}``. Not part of `mass`.
     breaks : array_like, shape (B,), optional
-        Distances from the free end at which a density function jumps or has a corner, m.
+        Distances from the free end, m, at which a density function jumps or has a corner; for a narrow part, its ends.
     tip_centroid, tip_radius_of_gyration : float, optional
         For a bob that turns about the end of the cord: distance of its centre of gravity below that end, m, and its radius
-        of gyration about its centre of gravity, m (as of a link: of a body whose matter lies along its axis; in a swing in a
-        plane, of any body). Such a cord has small motions (`modes`, `count_modes`); for shapes use `chain`.
+        of gyration about its centre of gravity, m. `modes` and `count_modes` take such a cord; for shapes use `chain`.
 
     Raises
     ------
     ValueError
-        If a number is out of its range, masses are mixed with weights, a mass or break does not lie between the ends,
-        breaks are given without a function, a radius of gyration without a centroid, a centroid without a tip, a bob is
-        longer than 1e5 cords, or a density function is not positive inside the cord, has too many jumps and corners, or
-        has an integral that cannot be resolved to 1e-6. The last two messages name the place; use a `Chain` of many
-        short links for such a cord.
+        If a number is out of its range, the arguments do not go together, or a density function is not positive inside
+        the cord or cannot be resolved.
 
     Notes
     -----
-    A power is stored as its exponent. A function is stored as piecewise polynomials, to 1e-14 of its largest value on
-    each piece, with an estimate of the error of its integral, which the error bounds of the results include. Cost: 15
-    microseconds; with a smooth function 0.2 ms and 1167 calls of it, with a jump that is not in `breaks` about 1800 more.
-    Source: Greenhill (1908), section 4; a bob: J. S. Deschaine and B. H. Suits, Eur. J. Phys. 29, 1211 (2008).
+    A function is stored as piecewise polynomials, to 1e-14 of its largest value on each piece, with an estimate of the
+    error of its integral, which the error bounds of the results include. Cost: 15 microseconds; with a smooth function
+    0.2 ms. Source: Greenhill (1908), section 4; a bob: J. S. Deschaine and B. H. Suits, Eur. J. Phys. 29, 1211 (2008).
 
     Examples
     --------
@@ -252,7 +245,7 @@ class Cord(System):
         Raises
         ------
         ValueError
-            If `count` is below 1, the density was given as a function, or the lowest link would have too little mass.
+            If `count` is out of its range, or the density was given as a function.
 
         Examples
         --------
@@ -318,12 +311,12 @@ class Cord(System):
 
     @property
     def size(self) -> int:
-        """The number of links, which is 0 for a cord."""
+        """Number of links: 0 for a cord."""
         return 0
 
     @property
     def mode_count(self) -> None:
-        """The number of modes, which is None because a cord has infinitely many."""
+        """Number of modes: None, as a cord has infinitely many."""
         return None
 
     def _under(self, gravity: float) -> _core.Cord:

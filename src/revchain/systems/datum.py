@@ -34,21 +34,20 @@ class Datum:
     present : float
         Present value.
     change : callable
-        Returns the system with another value; raises a ValueError if the system cannot have that value.
+        Returns the system with another value; a ValueError if it cannot have that value.
     typical : float
         A value of ordinary size, positive.
     floor : float or None
         Lower limit of all values; None if they may have either sign.
     ceiling : float
-        Upper end of a search with equal steps; infinite if the search is by ratio. If the present value is greater, the
-        search ends at that value.
+        Upper end of a search with equal steps; infinite if the search is by ratio.
     rate : (str, ndarray) or None
         Name of the field of the sensitivity, and a factor for each link: the derivative by this datum is the sum of field
-        times factor. None if no field has it, and for a cord, whose field has the name of the path.
+        times factor. None if no field has it, and for a cord.
     link : int
         Index of the link, from 0 for the lowest; 0 if the number belongs to no link.
     one_way : bool
-        Whether every speed is known to be monotonic in the number, so that each speed has at most one value.
+        Whether the speeds are known to be monotonic in the number.
     said : str
         Path as the caller writes it: with a name, or an index in the caller's order.
     """
@@ -71,15 +70,12 @@ class Datum:
 
     @property
     def has_scale(self) -> bool:
-        """Whether the present value sets the size of a search: it is finite and above the floor, or there is no floor."""
+        """Whether the present value sets the size of a search."""
         return self.floor is None or self.floor < self.present < math.inf
 
 
 def datum_at(caller: str, system: Any, path: Any, gravity: float, argument: str = "vary") -> Datum:
-    """Return the datum at a path of the system, with a link by its name or by its index in the caller's order.
-
-    An unknown path raises a ValueError.
-    """
+    """Return the datum at a path of the system, with a link by name or by index in the caller's order; else a ValueError."""
     said, path = path, _counted(caller, system, path, argument)
     name, link = path, None
     if len(parts := steps(path)) == 3 and isinstance(parts[1], int):
@@ -115,7 +111,7 @@ def datum_at(caller: str, system: Any, path: Any, gravity: float, argument: str 
 
 
 def gravity_datum(system: Any, gravity: float) -> Datum:
-    """Gravity as a datum, which is none of the system: a change of it leaves the system as it is."""
+    """Gravity as a datum: a change of it leaves the system as it is."""
     return Datum("gravity", gravity, lambda x: system, gravity, said="gravity")
 
 

@@ -14,7 +14,7 @@ STANDARD_DENSITY = 1.225
 class Drag(_Fitting):
     """Quadratic drag of still air on the links of a chain, on bodies at them, or on both.
 
-    Give each quantity as one number for every link, or as an array with one number for each link, lowest first.
+    Give each quantity as one number, or as an array with one number for each link, lowest first.
 
     Parameters
     ----------
@@ -34,8 +34,7 @@ class Drag(_Fitting):
     Raises
     ------
     ValueError
-        If neither diameter nor area is given, a number is not finite or is negative, a list is empty, or `density` is a
-        list.
+        If neither diameter nor area is given, or a number is out of its range.
 
     References
     ----------

@@ -12,7 +12,7 @@ from typing import Any
 class Plot:
     """The method `plot` of a class: the function for the class, with its own signature and docstring.
 
-    It is imported when it is first used. A class without one has no `plot`. A second one of a class has a `name`.
+    It is imported on first use. A second one of a class has a `name`.
     """
 
     def __init__(self, name: str = "") -> None:

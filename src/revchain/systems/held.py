@@ -30,26 +30,20 @@ class Held(System):
     weightless : bool
         True to leave gravity out. The weights of a system given by weight then count as masses.
     lower, upper : Support, optional
-        Support of an end of a chain; a firm point on the axis if left out. `stiffness` is that of a spring across the axis,
-        `mass` moves with the end, and `radius` is that of the circle in which the end, or with a spring its rest position,
-        is carried round. Both radii lie in one plane with the axis; a negative one is on the other side. With a tension both
-        radii must be 0.
+        Support of an end of a chain; a firm point on the axis if left out. Its spring acts across the axis. Both radii lie
+        in one plane with the axis; a negative one is on the other side. With a tension both radii must be 0.
 
     Raises
     ------
     ValueError
-        If not exactly one of `span` and `tension` is given; if a number is out of its range; if the span, or the
-        distance between firm ends, is not less than the length; if a radius comes with a tension; if a support
-        rolls freely or has a dashpot; if masses are mixed with weights; if a cord is not uniform, carries masses, or comes
-        with a `lower` or `upper` that is not a firm point on the axis.
+        If a number is out of its range, the ends are too far apart, or the arguments do not go together.
     TypeError
-        If `system` is not a `Chain` or a `Cord`, `lower` or `upper` is not a `Support`, or `weightless` is not a bool.
+        If `system`, `lower`, `upper` or `weightless` is of another class.
 
     Notes
     -----
-    With a span use `steady_shapes`: between firm ends the chain is bent at every speed. With a tension greater than its
-    weight (without gravity, with any tension) the chain can also be straight; `modes` returns its critical speeds. Cost:
-    O(1). Source: Greenhill (1908), section 3 for weights on a taut string, section 5 for the cord, section 8 (21) for links.
+    With a span use `steady_shapes`. With a tension `modes` returns the critical speeds of the straight chain. Cost: O(1).
+    Source: Greenhill (1908), section 3 for weights on a taut string, section 5 for the cord, section 8 (21) for links.
 
     Examples
     --------
@@ -125,12 +119,12 @@ class Held(System):
 
     @property
     def is_on_axis(self) -> bool:
-        """Whether both ends (with springs: their rest positions) are on the axis, so that shapes have mirror images."""
+        """Whether both ends (with springs: their rest positions) are on the axis."""
         return self.lower.radius == self.upper.radius == 0.0
 
     @property
     def is_planar(self) -> bool:
-        """Whether no torque about the axis can bend a chain out of a plane: the radius of at least one end is 0."""
+        """Whether the radius of at least one end is 0."""
         return self.lower.radius == 0.0 or self.upper.radius == 0.0
 
     @property
@@ -150,11 +144,7 @@ class Held(System):
 
     @property
     def mode_count(self) -> int | None:
-        """Number of modes of the straight chain; None for a cord.
-
-        It is N - 1 for N links and, under a tension, one more for each end on a spring. It is one less for each independent
-        motion of the movable pins that moves no mass.
-        """
+        """Number of modes of the straight chain; None for a cord."""
         if self._is_cord:
             return None
         core: Any = self.system._compiled
@@ -177,7 +167,7 @@ class Held(System):
         return 1.0 if self.weightless else self.system._force(gravity)
 
     def _force_in_shape(self, gravity: float, conical_height: float, angular_speed: float) -> float:
-        """Factor that turns a force of a compiled shape, which is times the conical height, into a force of the results."""
+        """Factor that turns a force of a compiled shape, times the conical height, into a force of the results."""
         return angular_speed**2 if self.weightless else self._force(gravity) / conical_height
 
     def _pull(self, gravity: float) -> tuple[float, float] | None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks of the arguments of users, and conversion to the float64 arrays that the compiled module takes."""
+"""Checks of arguments, and conversion to the float64 arrays that the compiled module takes."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ STANDARD_GRAVITY = 9.80665
 
 
 def floats(caller: str, name: str, value: ArrayLike | None, quantity: str = "") -> Floats:
-    """`value` as a float64 array, numbers with units in SI; a ValueError refuses anything but real numbers.
+    """`value` as a float64 array, in SI if it has units; a ValueError if it is not of real numbers.
 
-    A bool among numbers counts as 0 or 1, as in numpy. `quantity` names the kind of unit, if the name does not.
+    `quantity` names the kind of unit, if the name does not.
     """
     if type(value) is np.ndarray and value.dtype is _FLOAT64 and value.flags.c_contiguous:
-        return value  # as fast as can be: there is nothing to convert
+        return value
     if not isinstance(value, float) and units.has_units(value := units.unpacked(value)):
         value = units.in_si(caller, name, value, quantity)
     array = array_of(value)
@@ -60,7 +60,7 @@ def array_of(value: object) -> NDArray[Any]:
 
 
 def integer(caller: str, name: str, value: object) -> int:
-    """`value` as an int that the compiled module can hold; a float, a bool or a string is refused with a ValueError."""
+    """`value` as an int that the compiled module can hold; a ValueError otherwise."""
     number = _whole(caller, name, value)
     if not -LARGEST <= number <= LARGEST:
         raise ValueError(f"{caller}: {name} must be a number of less than 64 bits, got {shown(number)}")
@@ -150,7 +150,7 @@ def file_path(caller: str, name: str, value: object) -> str:
 
 
 def boolean(caller: str, name: str, value: object) -> bool:
-    """`value` as a bool; a TypeError for anything else, 0 and 1 included."""
+    """`value` as a bool; a TypeError otherwise."""
     if not isinstance(value, (bool, np.bool_)):
         raise TypeError(f"{caller}: {name} must be True or False, got {shown(value)}")
     return bool(value)
@@ -163,7 +163,7 @@ def refuse_where(wrong: NDArray[np.bool_], array: Floats, message: str) -> None:
 
 
 def real(caller: str, name: str, value: object) -> float:
-    """`value` as a float, in SI if it has a unit; a ValueError refuses anything but one real number."""
+    """`value` as a float, in SI if it has a unit; a ValueError if it is not a real number."""
     if isinstance(value, float):  # numpy's float64 is one, too
         return float(value)
     array = floats(caller, name, value)  # type: ignore[arg-type]
@@ -188,7 +188,7 @@ def positive(caller: str, name: str, value: ArrayLike) -> Floats:
 
 
 def one_positive(caller: str, name: str, value: object) -> float:
-    """`value` as a positive finite float, in SI if it has a unit; a ValueError refuses anything but one real number."""
+    """`value` as a positive finite float, in SI if it has a unit; a ValueError otherwise."""
     real(caller, name, value)
     return float(positive(caller, name, value))  # type: ignore[arg-type]
 
@@ -232,14 +232,14 @@ def together(caller: str, **arrays: NDArray[np.generic]) -> list[NDArray[Any]]:
 
 
 def beside(caller: str, **arrays: NDArray[np.generic]) -> list[NDArray[Any]]:
-    """The arrays broadcast to one shape; single numbers after the first stay single, as compiled functions repeat them."""
+    """The arrays broadcast to one shape; single numbers after the first stay single."""
     first, *others = together(caller, **arrays)
     given = list(arrays.values())[1:]
     return [first, *(one if one.ndim == 0 else many for one, many in zip(given, others, strict=True))]
 
 
 def as_length(caller: str, name: str, value: Any) -> Any:
-    """`value`, a force expressed as a length of chain of that weight; a ValueError if it has a unit."""
+    """`value`, a force as a length of chain of that weight; a ValueError if it has a unit."""
     if units.has_units(value):
         why = "it is the length of chain or rope that weighs as much"
         raise ValueError(f"{caller}: {name} must be a number without a unit ({why}), got {shown(value)}")
@@ -275,7 +275,7 @@ def link_arrays(caller: str, **given: ArrayLike | None) -> dict[str, Floats]:
 
 
 def shown(value: object, width: int = 60) -> str:
-    """`value` as an error message shows it: its repr, shortened if it is long; its type if it has no repr."""
+    """`value` as an error message shows it: its repr, shortened if it is long."""
     try:
         text = repr(value)
     except Exception:  # a whole number of more than 4300 digits, or any object of a caller

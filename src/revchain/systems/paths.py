@@ -25,7 +25,7 @@ def steps(path: object) -> Path:
 def numbered(path: str, names: Sequence[str]) -> str:
     """The path with the index of the link that it names; a ValueError if there is no such link, or several.
 
-    `names` has the names of the links in the caller's order, empty for a link without one; it is empty if there are none.
+    `names` has the names of the links in the caller's order, empty for a link without one.
     """
     found = _NAMED.match(path)
     if found is None or re.fullmatch(r"\d+", found[4] or ""):

@@ -90,7 +90,7 @@ def _fitting(kind: type[_Fitting], given: dict[str, Any]) -> _Fitting:
 class Support(_Fitting):
     """The support of the uppermost pin: firm, on a horizontal spring, a free trolley, or moving in a circle.
 
-    A rig without a support hangs from a firm point on the axis. An end of a `Held` chain has such a support, too.
+    The ends of a `Held` chain have such supports, too.
 
     Parameters
     ----------
@@ -98,18 +98,17 @@ class Support(_Fitting):
         Horizontal stiffness of the spring, N/m; infinite for a firm support, 0 for a trolley that rolls freely. With a
         positive mass or weight and no stiffness the support is such a trolley.
     damping : float
-        Damping of a dashpot between the pin and the ground, N s/m. It needs a mass or a stiffness.
+        Damping of a dashpot between the pin and the ground, N s/m.
     mass, weight : float, optional
         Mass (kg) or weight (N) that moves horizontally with the pin, in the same quantity as the chain.
     radius : float
         Radius of the circle in which the support is carried round, m; 0 on the axis. With a spring it is the radius of
-        its rest position. At an end of a `Held` it may be negative: on the other side of the axis.
+        its rest position.
 
     Raises
     ------
     ValueError
-        If a number is out of its range, if both mass and weight are given, if a mass or a dashpot comes with infinite
-        stiffness, or if a trolley that rolls freely has a radius.
+        If a number is out of its range, or the arguments do not go together.
 
     References
     ----------
@@ -168,7 +167,7 @@ class Support(_Fitting):
 
     @property
     def stiffness(self) -> float:
-        """Stiffness of the spring, N/m; infinite for a firm support, 0 for a trolley that rolls freely."""
+        """Stiffness of the spring, N/m; infinite for a firm support."""
         return float(self._given.get("stiffness", 0.0 if {"mass", "weight"} & self._given.keys() else math.inf))
 
     @property
@@ -203,7 +202,7 @@ class Pin(_Fitting):
     """Torsion springs and dashpots at the pins: bending stiffness of a cable, friction of hinges.
 
     Each acts between the two links at a pin; at the uppermost pin between the link and the vertical. Give each quantity as
-    one number for every pin, or as an array with one number for the upper pin of each link, lowest first.
+    one number, or as an array with one number for the upper pin of each link, lowest first.
 
     Parameters
     ----------
@@ -211,14 +210,12 @@ class Pin(_Fitting):
         Torque over the angle between the links, N m/rad; the straight chain is relaxed. For a chain given by weight in the
         unit of its weights times m.
     damping : array_like
-        Torque over the rate of that angle, N m s/rad (for a chain given by weight in the unit of its weights times m
-        s), of links that do not turn about their own axes. About steady shapes (`SteadyShape.stability`) links
-        without a moment of inertia about their axes also turn about these, so that the least energy is lost.
+        Torque over the rate of that angle, N m s/rad; for a chain given by weight in the unit of its weights times m s.
 
     Raises
     ------
     ValueError
-        If a number is not finite or is negative, or an array is empty.
+        If a number is out of its range.
 
     Notes
     -----
@@ -249,20 +246,19 @@ class Pin(_Fitting):
 class Flywheel(_Fitting):
     """Wheels that spin about the axes of links.
 
-    Give each quantity as one number for every link, or as an array with one number for each link, lowest first.
+    Give each quantity as one number, or as an array with one number for each link, lowest first.
 
     Parameters
     ----------
     mass, weight : array_like, shape (N,) or scalar
-        Mass (kg) or weight (N) of each wheel, in the same quantity as the chain; 0 if a link has no wheel. The mass of
-        the link includes it.
+        Mass (kg) or weight (N) of each wheel, in the same quantity as the chain; 0 if a link has no wheel.
     radius_of_gyration : array_like
         Radius of gyration of each wheel about its axis, m. The axis is that of the link.
     spin : array_like
         Spin of each wheel, rad/s; positive if the wheel of a hanging link turns in the direction of a positive speed.
         A wheel on free bearings keeps its spin relative to the ground, a driven wheel relative to its link.
     driven : array_like of bool
-        Whether a motor turns the wheel relative to its link.
+        Whether a motor drives the wheel.
     momentum : array_like
         Constant angular momentum of each wheel along the axis of its link, instead of the four quantities above, kg
         m^2/s; for a chain given by weight, in weight times length times time.
@@ -273,7 +269,7 @@ class Flywheel(_Fitting):
     Raises
     ------
     ValueError
-        If a number is not finite or is negative where it must not be, or if the arguments are inconsistent.
+        If a number is out of its range, or the arguments do not go together.
 
     Notes
     -----
@@ -355,7 +351,7 @@ class Flywheel(_Fitting):
 class Displaced(_Fitting):
     """The fluid that links displace, and its added mass.
 
-    Give each quantity as one number for every link, or as an array with one number for each link, lowest first.
+    Give each quantity as one number, or as an array with one number for each link, lowest first.
 
     Parameters
     ----------
@@ -371,12 +367,10 @@ class Displaced(_Fitting):
     Raises
     ------
     ValueError
-        If a number is not finite or is out of its range, if not exactly one of `mass` and `weight` is given, or if masses
-        are mixed with weights.
+        If a number is out of its range, or the arguments do not go together.
 
     Notes
     -----
-    Fluid of mass 0 without added mass has no effect; `sensitivity` by its mass is that of fluid at the position given.
     Cost: O(N), when the rig is made. Source: Greenhill (1908), section 2 (6), for Stokes's float.
 
     Examples
@@ -416,7 +410,7 @@ class Displaced(_Fitting):
 
     @property
     def _bears(self) -> bool:
-        """Whether any fluid is displaced or moves with a link; if not, its position matters for derivatives alone."""
+        """Whether any fluid is displaced or moves with a link."""
         return any(value.any() for name, value in self._given.items() if name in _HEAVY)
 
 
@@ -426,7 +420,7 @@ class Rig(System):
     Parameters
     ----------
     chain : Chain
-        The chain of N links in vacuum. The masses and inertias of its links include their wheels.
+        The chain of N links in vacuum.
     support : Support, optional
         Support of the uppermost pin; a firm point on the axis if left out.
     flywheels : Flywheel, optional
@@ -440,19 +434,15 @@ class Rig(System):
         Springs and dashpots at the pins.
     drag : array_like, shape (N,) or scalar, optional
         Linear drag of each link in still air, N s/m, spread evenly along it; for a chain given by weight in the unit of its
-        weights, times time over length. It damps small motion (`modes`, `response`, `swing`) as the mass of a uniform rod
-        resists it, on the velocity instead of the acceleration. Steady shapes with drag, which is then quadratic, are found
-        by `drag_shape`.
+        weights, times time over length. It damps small motion. For steady shapes in air see `drag_shape`.
     inverted : array_like of bool, shape (N,) or scalar
-        Links that stand on their upper pin (counted along the chain) instead of hanging from it. Small oscillations take
-        place about the straight chain with these links inverted.
+        Links that stand on their upper pin (counted along the chain), instead of hanging from it.
 
     Raises
     ------
     ValueError
-        If a number is out of its range, an array does not have one number for each link, masses are mixed with weights,
-        `fluid` is another word, `inverted` is not of booleans, or fluid that turns has added mass or comes with a trolley
-        that rolls freely.
+        If a number is out of its range, an array does not have one number for each link, or the arguments do not go
+        together.
     TypeError
         If `chain`, `support`, `flywheels`, `displaced` or `pins` is of another class.
 
@@ -594,7 +584,7 @@ class Rig(System):
 
     @property
     def has_momentum(self) -> bool:  # type: ignore[override]
-        """Whether a wheel spins relative to its link, or has momentum, at rest: the two directions then differ."""
+        """Whether a wheel has angular momentum while the chain is at rest."""
         return self.flywheels is not None and bool(self._momentum(STANDARD_GRAVITY).any())
 
     @property
@@ -628,7 +618,7 @@ class Rig(System):
 
     @property
     def mode_count(self) -> None:
-        """None: how many modes a rig has is known only when they are found."""
+        """Number of modes: None, as it is known only when they are found."""
         return None
 
     def _momentum_of_wheels(self, gravity: float, inclination: Any) -> float:
@@ -724,7 +714,7 @@ class Rig(System):
         return f"Rig of a chain of {links}: {', '.join(with_what + self._extras()) or 'nothing added'}"
 
     def _state(self) -> tuple[Any, ...]:
-        """Return the parts that make up the rig, for pickles and copies with one part changed."""
+        """The parts that make up the rig."""
         fittings = (self.support, self.flywheels, self.displaced, self.pins)
         given = tuple(None if fitting is None else dict(fitting._given) for fitting in fittings)
         return self.chain, *given, self.fluid, self._inverted, self.drag

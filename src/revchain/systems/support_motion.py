@@ -36,21 +36,19 @@ class SupportMotion(_Fitting):
         Forces on a support that yields, N, or in the unit of the weights.
     rests : bool
         With offsets: whether the support is at rest before the first time and after the last. If not, it goes on with the
-        velocities of the spline at its ends, as for a stretch cut out of a longer motion.
+        velocities of the spline at its ends.
 
     Raises
     ------
     ValueError
-        If not exactly one of the four is given; if a number is not finite, lists differ in length or have fewer than two
-        entries, times are negative or do not ascend, or a velocity or an offset jumps; if `rests` is false without offsets.
+        If a number is out of its range, times do not ascend, or the arguments do not go together.
     TypeError
         If `rests` is not a bool.
 
     Notes
     -----
-    A support with a spring is moved at the far end of the spring, as the ground moves under a machine. Any other, a free
-    trolley too, is moved itself. Source: C. de Boor, A Practical Guide to Splines (1978), chapter IV: complete splines,
-    or if the support does not rest at the ends not-a-knot splines.
+    A support with a spring is moved at the far end of the spring, any other is moved itself. Source: C. de Boor, A
+    Practical Guide to Splines (1978), chapter IV: complete and not-a-knot splines.
 
     Examples
     --------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The base of all systems: immutable values that can be compared, pickled, described and written as data."""
+"""The base of the systems: immutable values that can be compared, pickled, described and written as data."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ class System(Unchangeable):
 
     @property
     def mode_count(self) -> int | None:
-        """Number of modes; None if there are infinitely many, or if they are only known when they are found."""
+        """Number of modes; None for a cord and for a rig."""
         raise NotImplementedError
 
     def _under(self, gravity: float) -> Any:
@@ -152,7 +152,7 @@ class System(Unchangeable):
         Returns
         -------
         dict
-            The data. They can be written as JSON.
+            The data, which can be written as JSON.
 
         Examples
         --------
@@ -175,7 +175,7 @@ class System(Unchangeable):
         Returns
         -------
         Chain, Rig, Cord or Held
-            A system of the class on which the method is called.
+            The system.
 
         Raises
         ------

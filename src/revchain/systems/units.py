@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers with units: text such as "39 inch" and pint quantities, converted to SI; the argument's name tells the kind."""
+"""Numbers with units: text such as "39 inch" and pint quantities, converted to SI."""
 
 from __future__ import annotations
 
@@ -79,10 +79,7 @@ _TOLERANCE = re.compile(r"\(?\s*(.*?)\s*(?:±|\+\s*/?\s*-)\s*([^()]*?)\s*(?:\)\s
 
 
 def speed_unit(value: Any) -> str | None:
-    """The way of `SPEED_UNITS` in which a value says a speed: text, a quantity of pint, or the first of them in a list.
-
-    It is None for numbers and for any other unit.
-    """
+    """The unit of `SPEED_UNITS` in which text, a pint quantity or the first of a list gives a speed, or None."""
     value = unpacked(value)
     if isinstance(value, dict):
         value = list(value.values())
@@ -127,10 +124,7 @@ def with_tolerance(text: str) -> tuple[str, str] | None:
 
 
 def unpacked(value: Any) -> Any:
-    """Return an array of text as a list in which plain numbers are floats again, one of objects with units as a list.
-
-    Any other value is returned unchanged.
-    """
+    """Return an array of text or of quantities as a list, plain numbers as floats; another value unchanged."""
     kind = getattr(getattr(value, "dtype", None), "kind", "")
     if kind not in ("U", "T", "O") or isinstance(value, str):
         return value
@@ -153,10 +147,7 @@ def has_units(value: Any) -> bool:
 
 
 def in_si(caller: str, name: str, value: Any, quantity: str = "") -> Any:
-    """`value` with all its numbers in SI units; a ValueError if a unit does not fit the quantity.
-
-    `name` tells the quantity if `quantity` is empty.
-    """
+    """`value` in SI units; a ValueError if a unit does not fit the quantity, which `name` tells if `quantity` is empty."""
     value = unpacked(value)
     if isinstance(value, list | tuple):
         return [in_si(caller, name, item, quantity) for item in value]
