@@ -109,8 +109,7 @@ class RigRoots {
             throw_invalid(place,
                           "with springs at pins every speed must be real: standing or floating "
                           "links with momentum, driven wheels and floats in a fluid that turns "
-                          "with them are solved without such springs; links",
-                          rig.size());
+                          "with them are solved without such springs");
         if (rig_.pencil.size() > most_isolated)
             throw_invalid(place,
                           "a rig whose speeds may be complex (standing or floating links with "

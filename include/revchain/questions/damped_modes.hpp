@@ -72,8 +72,7 @@ DampedModes damped_modes(const Rig& rig, const DampedModesOptions& options) {
     if (rig.size() > 1000)
         throw_invalid(place, "a rig with dashpots may have at most 1000 links", rig.size());
     if (rig.fluid() == Fluid::turning && rig.is_damped())
-        throw_invalid(place, "dashpots and a fluid that turns are not solved together; links",
-                      rig.size());
+        throw_invalid(place, "dashpots and a fluid that turns are not solved together");
     DampedSystem system(rig, options.gravity);
     std::vector<pencil::DampedRoot> roots = damped_roots(system);
     advance(options.progress, 0.6);

@@ -220,8 +220,7 @@ DragShape drag_shape(const Rig& rig, const Drag& drag, const DragShapeOptions& o
     if (rig.fluid() == Fluid::turning)
         detail::throw_invalid(place,
                               "a fluid that turns with the chain has no drag: leave the drag out "
-                              "or let the fluid be still; links",
-                              rig.size());
+                              "or let the fluid be still");
     const std::vector<LinkDrag> of_links = detail::drag_of_links(rig, drag, speed);
     const Fine height = height_at_speed(std::abs(speed), options.gravity);
     RiggedLinks links = rigged_links(rig, height, Fine(speed));

@@ -36,8 +36,7 @@ void check_forced(const Rig& rig, const ForcedMotionOptions& options, int given)
         throw_invalid(place, "a force does not move a firm support: give a radius; force",
                       options.force);
     if (rig.fluid() == Fluid::turning && rig.is_damped())
-        throw_invalid(place, "dashpots and a fluid that turns are not solved together; links",
-                      rig.size());
+        throw_invalid(place, "dashpots and a fluid that turns are not solved together");
     for (const double n : options.angular_speed)
         require_positive(place, "angular speed", rig.has_momentum() ? std::abs(n) : n);
 }

@@ -133,8 +133,7 @@ bool modes_of_sense_by_counts(WhirlModes& modes, const Rig& rig, const RigRoots&
 REVCHAIN_LAZY
 void require_no_dashpots(std::string_view place, const Rig& rig) {
     if (rig.is_damped())
-        throw_invalid(place, "a rig with dashpots has damped modes: damped_modes; links",
-                      rig.size());
+        throw_invalid(place, "a rig with dashpots has damped modes: damped_modes");
 }
 
 /// Returns the modes of a rig that is a plain chain.

@@ -130,8 +130,7 @@ class TransientMotion {
             last = t;
         }
         if (moved_ == Moved::by_force && rig_.support().is_firm())
-            throw_invalid(place, "a force does not move a firm support: give a motion; links",
-                          rig_.size());
+            throw_invalid(place, "a force does not move a firm support: give a motion");
         const MotionPiece& first = pieces_.front();
         const double pace = static_cast<double>(pace_);
         q_ = rotations("offset", options_.offset, first.offset, length_);
@@ -384,7 +383,7 @@ Transient transient(const Rig& rig, const TransientOptions& options) {
     detail::require_positive("transient", "gravity", options.gravity);
     if (rig.size() > 1000)
         detail::throw_invalid(
-            "transient", "with dashpots or a moving support there may be at most 1000 links; links",
+            "transient", "with dashpots or a moving support there may be at most 1000 links",
             rig.size());
     if (rig.support().radius != 0)
         detail::throw_invalid("transient",
@@ -392,8 +391,7 @@ Transient transient(const Rig& rig, const TransientOptions& options) {
                               rig.support().radius);
     if (rig.fluid() == Fluid::turning)
         detail::throw_invalid("transient",
-                              "a rig moves in a fluid at rest, not in one that turns; links",
-                              rig.size());
+                              "a rig moves in a fluid at rest, not in one that turns");
     return detail::TransientMotion<>(rig, options).found();
 }
 

@@ -28,9 +28,7 @@ inline void require_no_pins(std::string_view place, std::string_view what, const
                             bool dashpots_matter = true) {
     const auto refuse = [&](std::string_view with) {
         throw_invalid(
-            place,
-            std::string(what) + " cannot be found for a rig with " + std::string(with) + "; links",
-            rig.size());
+            place, std::string(what) + " cannot be found for a rig with " + std::string(with));
     };
     if (rig.has_pin_springs()) refuse("springs at pins: leave them out");
     if (rig.has_drag()) refuse("linear drag: leave it out");
@@ -94,8 +92,7 @@ inline void Rig::check() const {
                               "does not move its dashpot; damping",
                               support.damping.high);
     if (support.is_free() && with_.fluid == Fluid::turning)
-        detail::throw_invalid(
-            "Rig", "a trolley that rolls freely cannot be in a fluid that turns; links", size());
+        detail::throw_invalid("Rig", "a trolley that rolls freely cannot be in a fluid that turns");
     if (support.is_free() && support.radius != 0)
         detail::throw_invalid("Rig", "a trolley that rolls freely has no radius: its radius",
                               support.radius);
