@@ -46,9 +46,8 @@ using ByBellDatum = std::array<T, bell_datum_names.size()>;
 /// and clapper lean to the same side in the first and to opposite sides in the second, so they can
 /// swing as one piece in the first only. If both swing, the first is the slower one with the pin of
 /// the clapper below the axle, the faster one with the pin above it. If both fall, it is the other
-/// way round.
-/// An inverted body stands on its upper pin. A height below 0 is that of a motion that falls; if one
-/// mode swings and the other falls, the first is the one that swings.
+/// way round. A height below 0 is that of a motion that falls; if one mode swings and the other
+/// falls, the first is the one that swings.
 template <Real T>
 struct BellAndClapper {
     std::array<T, 2> conical_height;
@@ -67,20 +66,19 @@ struct BellAndClapper {
 /// ulp, derivatives, each times its datum, 1e-15 of the largest (tests/cpp/bell.cpp). Cost O(1).
 /// Throws InvalidArgument unless there are two links, both with weight.
 /// `joint`: distance of the clapper's pin below the axle, instead of the bell's length; negative
-/// above it, and 0 in it: then each swings alone. `inverted`: whether clapper and bell stand on
-/// their upper pins in the position of rest. A bell with its centroid above the axle is an inverted
-/// one: give both distances with the opposite sign.
+/// above it. `inverted`: whether clapper and bell stand on their upper pins in the position of
+/// rest. A bell with its centroid above the axle is an inverted one: give both distances with the
+/// opposite sign.
 template <Real T>
 [[nodiscard]] BellAndClapper<T> bell_and_clapper(
     const Chain<T>& chain, const std::optional<std::type_identity_t<T>>& joint = {},
     const std::array<bool, 2>& inverted = {});
 
 /// Returns, for each datum, the value nearest to the present one that gives the first mode the
-/// inclination ratio `ratio`, with all other data constant; NaN if there is none. Only values count
-/// that keep the pin on its side of the axle, and the stability of the position of rest. A ratio of
-/// 1 makes bell and clapper one piece; a bell rings with a ratio far enough from 1. Each value is a
-/// root of a quadratic. Cost O(1). Throws InvalidArgument as `bell_and_clapper`, for a ratio <= 0
-/// and a joint of 0.
+/// inclination ratio `ratio`, with all other data constant; NaN if there is none. The pin stays on
+/// its side of the axle, and the position of rest as stable as it is. A ratio of 1 makes bell and
+/// clapper one piece. Cost O(1). Throws InvalidArgument as `bell_and_clapper`, for a ratio <= 0 and
+/// a joint of 0.
 template <Real T>
 [[nodiscard]] ByBellDatum<T> bell_and_clapper_with_ratio(
     const Chain<T>& chain, const T& ratio, const std::optional<std::type_identity_t<T>>& joint = {},
@@ -119,12 +117,11 @@ struct Strike {
     double error_estimate;
 };
 
-/// The first blow of the clapper in a swing of the bell up to its next turn. A clapper that rests
-/// on a side of the bell moves with it while the bell pushes it, then flies free. Angles count from
-/// the lowest position of the bell, inverted or not; if one of the two bodies is inverted, the
-/// clapper points the other way in the middle of the bell. Throws InvalidArgument for angles out of
-/// range, gravity not positive, and without `amplitude` if one of the two bodies is inverted.
-/// Cost: 0.1 ms.
+/// The first blow of the clapper in a swing of the bell up to its next turn. Angles count from the
+/// lowest position of the bell, inverted or not; if one of the two bodies is inverted, the clapper
+/// points the other way in the middle of the bell. Throws InvalidArgument for angles out of range,
+/// gravity not positive, and without `amplitude` if one of the two bodies is inverted. Cost: 0.1
+/// ms.
 [[nodiscard]] Strike first_strike(const BellAndClapper<double>& bell, const StrikeStart& start);
 
 }  // namespace revchain

@@ -25,7 +25,7 @@
 /// O(1) and throw InvalidArgument unless arguments are positive and finite.
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// Direction of rotation: positive or negative angular speed. It matters to flywheels only.
+/// Direction of rotation: positive or negative angular speed. It matters to flywheels.
 enum class Rotation { forward, backward };
 
 /// Speed, period, gravity and conical height from each other, §1 (1)-(7).
@@ -121,7 +121,7 @@ void require_one_speed(std::string_view place, const Options& options) {
 }
 
 /// The conical height that options give directly or by the angular speed. Throws InvalidArgument
-/// unless exactly one is given, positive and finite.
+/// unless exactly one is given.
 template <class Options>
 double height_given(std::string_view place, const Options& options) {
     require_one_speed(place, options);
@@ -145,9 +145,8 @@ struct InclinedPendulum {
 };
 
 /// The plummet on a thread of `length` at the speed with conical height `height`: cos(inclination)
-/// = height / length. It hangs straight down if height >= length. For a compound link `length` is
-/// its pendulum length, and `tension` is not the force at its pin (`swung_link`). §1 (1), §6 (1).
-/// Accuracy: 3 ulp (tests/cpp/paper/section_1.cpp).
+/// = height / length. It hangs straight down if height >= length. For a compound link see
+/// `swung_link`. §1 (1), §6 (1). Accuracy: 3 ulp (tests/cpp/paper/section_1.cpp).
 template <Real T>
 [[nodiscard]] InclinedPendulum<T> inclined_pendulum(const T& length, const T& height) {
     using std::asin, std::sqrt;
@@ -170,12 +169,11 @@ struct HeldPlummet {
 };
 
 /// The plummet held by threads from two points of the axis, the lower one `distance` below the
-/// upper one. Its equations are those of the polygon KN, NP, PC', C'K of §1. Let D be the depth
-/// with both threads straight. The lower thread is slack if height >= D, the upper one if height <=
-/// D - distance; the plummet is then a conical pendulum on the other. Its position is the point
-/// within reach of both threads with the largest depth + radius^2/(2 height), which is unique.
-/// Accuracy: 3 ulp; a depth or tension that is a small difference of two terms has an error of
-/// 1e-29 of the larger one. Also throws InvalidArgument unless the three lengths form a triangle.
+/// upper one. §1. Let D be the depth with both threads straight. The lower thread is slack if
+/// height >= D, the upper one if height <= D - distance; the plummet is then a conical pendulum on
+/// the other. Accuracy: 3 ulp; a depth or tension that is a small difference of two terms has an
+/// error of 1e-29 of the larger one. Also throws InvalidArgument unless the three lengths form a
+/// triangle.
 template <Real T>
 [[nodiscard]] HeldPlummet<T> held_plummet(const T& upper_thread, const T& lower_thread,
                                           const T& distance, const T& height);
@@ -218,8 +216,7 @@ struct CarriedInclinations {
 /// radius b: lambda tan d = b + l sin d, §1 (9). One is always outwards. Two more are inwards if
 /// lambda < l and b^(2/3) <= l^(2/3) - lambda^(2/3); the steeper one is unstable, and the other may
 /// be. Accuracy: 4 ulp, times 1 / |1 - (cos d_meet / cos d)^3| near the inclination d_meet at which
-/// the inner two meet. Cost: 0.3 microseconds. Also throws InvalidArgument if the tangent of an
-/// inclination overflows.
+/// the inner two meet. Cost: 0.3 microseconds.
 template <Real T>
 [[nodiscard]] CarriedInclinations<T> carried_inclinations(const T& length, const T& height,
                                                           const T& radius);

@@ -43,8 +43,7 @@ struct ExplainOptions {
 
 /// Returns the method that `modes` of a chain, with all of methods.hpp, tries first. No mode is
 /// computed. If that method cannot prove its bound for this chain, `modes` takes the next one;
-/// `Modes::method` names the method used. Each method meets its error bound, but not for heights
-/// below 2e-308; bench/models.cpp compares predicted with measured times. Throws as `modes`.
+/// `Modes::method` names the method used. Throws as `modes`.
 REVCHAIN_DECLARE
 [[nodiscard]] Explanation explain(const Chain<double>& chain, const ExplainOptions& options = {});
 

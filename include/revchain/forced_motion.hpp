@@ -47,15 +47,13 @@ struct ForcedMotion {
 /// Forced motion, after free motions have died away: Q(i n) q = load with the matrices of
 /// `damped_modes`. The support's own dashpot acts on its velocity over the ground.
 ///
-/// Method: elimination of the links' rotations, one after the other, in complex double words, O(N),
-/// corrected twice. The estimate adds the second correction, the effect of a relative change of
-/// 2^-90 of the speed, and half an ulp. Accuracy measured for random rigs
-/// (tests/cpp/forced_motion.cpp): 1.6e-16 of the largest offset, and at most ten times
-/// `error_estimate`. Cost: 2 microseconds for each link and speed.
+/// Method: elimination of the links' rotations, one after the other, in complex double words,
+/// corrected twice. Accuracy measured for random rigs (tests/cpp/forced_motion.cpp): 1.6e-16 of the
+/// largest offset, and at most ten times `error_estimate`. Cost: 2 microseconds for each link and
+/// speed.
 /// Throws InvalidArgument unless one of radius, acceleration and force is given or the rig's own
-/// support has a radius, all are finite, gravity is positive, speeds are not 0 and positive without
-/// momentum; for a force on a firm support, for dashpots in a fluid that turns, and for a speed or
-/// drive too far from the rig's own units.
+/// support has a radius, for speeds of 0, negative speeds without momentum, a force on a firm
+/// support, dashpots in a fluid that turns, and numbers out of range.
 REVCHAIN_DECLARE
 [[nodiscard]] ForcedMotion forced_motion(const Rig& rig, const ForcedMotionOptions& options);
 

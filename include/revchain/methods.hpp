@@ -12,9 +12,8 @@
 ///     const auto m = revchain::modes(rods, {.count = 3}, revchain::methods::all);
 ///     m.method;                      // "condensed"
 ///
-/// `modes` without them finds every mode of every chain by bisection, to the same accuracy, and for
-/// up to 30 links in at most about twice the time. `explain` lists what each method would cost for
-/// a chain. `modes` has all of them in programs that link `revchain::compiled`.
+/// `modes` without them uses bisection, to the same accuracy. `explain` lists what each method
+/// would cost for a chain. `modes` has all of them in programs that link `revchain::compiled`.
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// Lists of methods. A program compiles the methods that it names.

@@ -9,8 +9,8 @@
 ///     const auto pencil = revchain::recurrence_matrices(chain);
 ///     pencil.A(1, 0);  // 1: the weight below the upper pin
 ///
-/// Greenhill (1908) §8 (21) with sec delta = 1. The library solves element pencils (`modes`); this
-/// one is coded separately as an independent check.
+/// Greenhill (1908) §8 (21) with sec delta = 1. `modes` does not use it: it is an independent
+/// check.
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// A y = lambda B y in the offsets y_0 ... y_{N-1} of the pins, free end first.

@@ -23,10 +23,9 @@
 ///     const revchain::Rig sprung(chain, {.support = revchain::horizontal_spring(500.0, 10.0)});
 ///
 /// Forces are in the unit of the weights, the stiffness of a support in that unit over the unit of
-/// length, of a pin in that unit times it. Numbers are stored exactly as given. Stiffness and
-/// momentum are double words: with masses for weights, newtons are divided by gravity without
-/// rounding to double, `Wide<double>(500.0) / Wide<double>(9.81)`. `modes` of a rig is in
-/// rig_modes.hpp. Greenhill (1908) §2, §7 and §8.
+/// length, of a pin in that unit times it. Stiffness and momentum are double words: with masses for
+/// weights, newtons are divided by gravity without rounding to double, `Wide<double>(500.0) /
+/// Wide<double>(9.81)`. `modes` of a rig is in rig_modes.hpp. Greenhill (1908) §2, §7 and §8.
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// The support of the uppermost pin. The default is a firm point on the axis.
@@ -125,20 +124,18 @@ struct Rigging {
     Fluid fluid = Fluid::still;
     std::vector<Displaced> displaced{};
     std::vector<Pin> pins{};  ///< the upper pin of each link
-    /// Linear drag of each link in still air, force times time over length, >= 0: spread evenly along
-    /// it, on the velocity. It adds to the dashpots what the mass of a uniform rod adds to the masses.
+    /// Linear drag of each link in still air, force times time over length, >= 0: spread evenly
+    /// along it, on the velocity.
     std::vector<Wide<double>> drag{};
 
     friend bool operator==(const Rigging&, const Rigging&) = default;
 };
 
-/// A chain and its rigging. Without rigging answers and costs are those of its `Chain`.
+/// A chain and its rigging.
 ///
 /// Throws InvalidArgument, naming the link, for lists that are neither empty nor as long as the
-/// chain, numbers that are not finite, a carriage or a dashpot at a firm support, a free trolley
-/// with a radius or in a fluid that turns, and a negative stiffness, damping, drag, carriage
-/// weight, radius, axial moment, weight displaced or added, or gyration ratio of a fluid. Cost O(N)
-/// once.
+/// chain, numbers out of range, a carriage or a dashpot at a firm support, and a free trolley with
+/// a radius or in a fluid that turns. Cost O(N) once.
 class Rig {
    public:
     Rig(Chain<double> chain, Rigging with) : chain_(std::move(chain)), with_(std::move(with)) {
@@ -165,7 +162,6 @@ class Rig {
             with_.displaced.empty() ? Displaced{} : with_.displaced[static_cast<std::size_t>(m)];
         return given == Displaced{} ? displaced_by(chain_.link(m), 0) : given;
     }
-    /// The spring and the dashpot at the upper pin of link m.
     Pin pin(Index m) const {
         return with_.pins.empty() ? Pin{} : with_.pins[static_cast<std::size_t>(m)];
     }
@@ -176,7 +172,6 @@ class Rig {
         return std::any_of(with_.drag.begin(), with_.drag.end(),
                            [](const Wide<double>& drag) { return drag != Wide<double>(0.0); });
     }
-    /// Whether any pin has a spring.
     bool has_pin_springs() const {
         return std::any_of(with_.pins.begin(), with_.pins.end(),
                            [](const Pin& pin) { return pin.stiffness != Wide<double>(0.0); });

@@ -45,9 +45,7 @@ struct RopePoint {
 class SkippingRope {
    public:
     /// Throws InvalidArgument for numbers that are not positive and finite, for too few or too
-    /// many, and if no rope exists or double cannot hold it. None exists for a length not above
-    /// span or slack, a sag not below half the length of a half wave, a slack not below twice the
-    /// sag per half wave, a rope too slow or too tight to bend.
+    /// many, and if no such rope exists, as with a length not above the span.
     explicit SkippingRope(const RopeGiven& given);
 
     Index half_waves() const noexcept { return half_waves_; }
@@ -63,7 +61,7 @@ class SkippingRope {
     /// Moment of inertia about the axis over the mass per length: a length cubed.
     [[nodiscard]] double moment_of_inertia() const;
 
-    /// Whether angular speed or tension was given. Else the next four throw InvalidArgument.
+    /// Whether angular speed or tension was given; else the next four throw InvalidArgument.
     bool has_speed() const { return conical_height_.has_value(); }
     [[nodiscard]] double conical_height() const;
     double angular_speed() const {
@@ -124,8 +122,7 @@ struct TortuousPoint {
 /// Cost: 0.2 microseconds to construct, 0.3 microseconds a point.
 class TortuousRope {
    public:
-    /// Throws InvalidArgument for data outside the ranges above, if a result overflows, and if
-    /// tension g/n^2 underflows.
+    /// Throws InvalidArgument for data outside the ranges above.
     explicit TortuousRope(const TortuousGiven& given);
 
     double least_radius() const noexcept { return first_; }
