@@ -31,8 +31,8 @@ struct BatchColumn {
     }
 };
 
-/// Many chains with equal numbers of links. Without `centroid` the links are plummets. With it give
-/// either `pendulum_length` or `radius_of_gyration`.
+/// Many chains with equal numbers of links. With `centroid` give either `pendulum_length` or
+/// `radius_of_gyration`; without it the links are plummets.
 template <Real T>
 struct ChainBatch {
     Index chains = 0;

@@ -43,11 +43,10 @@ template <Real T>
 using ByBellDatum = std::array<T, bell_datum_names.size()>;
 
 /// The two modes of small motion about a position of rest. If both modes swing, or both fall, bell
-/// and clapper lean to the same side in the first and to opposite sides in the second, so they can
-/// swing as one piece in the first only. If both swing, the first is the slower one with the pin of
-/// the clapper below the axle, the faster one with the pin above it. If both fall, it is the other
-/// way round. A height below 0 is that of a motion that falls; if one mode swings and the other
-/// falls, the first is the one that swings.
+/// and clapper lean to the same side in the first and to opposite sides in the second. If both
+/// swing, the first is the slower one with the pin of the clapper below the axle, the faster one
+/// with the pin above it. If both fall, it is the other way round. A height below 0 is that of a
+/// motion that falls; if one mode swings and the other falls, the first is the one that swings.
 template <Real T>
 struct BellAndClapper {
     std::array<T, 2> conical_height;
@@ -61,14 +60,12 @@ struct BellAndClapper {
     ByBellDatum<T> derivative;       ///< of the first inclination ratio with respect to each datum
 };
 
-/// Both modes of a bell (upper link) and its clapper (lower link), how far they are from one piece,
-/// and the derivatives of the first mode's ratio of inclinations. Accuracy: heights and ratios 2
+/// Both modes of a bell (upper link) and its clapper (lower link). Accuracy: heights and ratios 2
 /// ulp, derivatives, each times its datum, 1e-15 of the largest (tests/cpp/bell.cpp). Cost O(1).
 /// Throws InvalidArgument unless there are two links, both with weight.
 /// `joint`: distance of the clapper's pin below the axle, instead of the bell's length; negative
-/// above it. `inverted`: whether clapper and bell stand on their upper pins in the position of
-/// rest. A bell with its centroid above the axle is an inverted one: give both distances with the
-/// opposite sign.
+/// above it. `inverted`: whether clapper and bell stand on their upper pins at rest. A bell with
+/// its centroid above the axle is an inverted one: give both distances with the opposite sign.
 template <Real T>
 [[nodiscard]] BellAndClapper<T> bell_and_clapper(
     const Chain<T>& chain, const std::optional<std::type_identity_t<T>>& joint = {},
@@ -95,8 +92,8 @@ inline constexpr std::array<std::string_view, 4> strike_status_names{"strikes", 
 /// How bell and clapper are released, at rest. Angles in rad.
 struct StrikeStart {
     double clearance;  ///< angle of the clapper in the bell from the middle to contact, below pi/2
-    /// Angle of the bell from its lowest position, 0 to pi. If left out, the bell falls from the balance,
-    /// mouth up, in a full circle; it starts 1e-4 from the balance.
+    /// Angle of the bell from its lowest position, 0 to pi. If left out, the bell falls from the
+    /// balance, mouth up, in a full circle.
     std::optional<double> amplitude{};
     /// Angle of the clapper in the bell, towards the lower side; at +-clearance it rests on that
     /// side while the bell pushes it. If left out: in a full circle -clearance; else it hangs free
@@ -112,8 +109,8 @@ struct Strike {
     double bell_angle;  ///< of the bell past its lowest position, rad
     double relative_speed;  ///< of the clapper in the bell, rad/s, > 0 towards the leading side
     double time;            ///< after the start, s
-    /// Estimated error: of `bell_angle` in rad, of `relative_speed` and `time` as a part of each.
-    /// It is infinite if rounding decides whether or where the clapper strikes.
+    /// Estimated error: of `bell_angle` in rad, of `relative_speed` and `time` as a part of each;
+    /// infinite if rounding decides about the blow.
     double error_estimate;
 };
 

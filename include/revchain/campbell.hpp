@@ -44,8 +44,8 @@ struct Campbell {
     std::vector<CampbellCrossing> crossings;  ///< by order, pair of speeds, motion
 };
 
-/// Returns the frequencies of small motion about the steady shape with `half_waves` at each speed.
-/// If several shapes have this number, it is the one whose free end is farthest out. A load that is
+/// The frequencies of small motion about the steady shape with `half_waves` at each speed. If
+/// several shapes have this number, it is the one whose free end is farthest out. A load that is
 /// constant in space, such as wind, is in resonance with a frequency that equals the speed (order
 /// 1).
 ///
@@ -60,7 +60,7 @@ struct Campbell {
 REVCHAIN_DECLARE
 [[nodiscard]] Campbell campbell(const Chain<double>& chain, const CampbellOptions& options);
 
-/// Returns the diagram of a rig that turns forward, such as a chair on the arm of a carousel.
+/// The diagram of a rig that turns forward.
 REVCHAIN_DECLARE
 [[nodiscard]] Campbell campbell(const Rig& rig, const CampbellOptions& options);
 

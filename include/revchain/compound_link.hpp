@@ -5,8 +5,8 @@
 #include "revchain/numeric/product.hpp"
 #include "revchain/numeric/status.hpp"
 
-/// One rigid link that hangs by a pin, and its whirl round the vertical axis through the pin. Its
-/// inertia about the line from the pin to the centroid is neglected, as for a rod.
+/// One rigid link that hangs by a pin, and its whirl round the vertical axis through the pin. It
+/// has no inertia about the line from the pin to the centroid.
 ///
 ///     const revchain::CompoundLink<double> bar{0.5, 0.2887};  // a uniform bar of length 1
 ///     bar.pendulum_length();                                  // 0.666695
@@ -42,8 +42,7 @@ struct CompoundLink {
             static_cast<T>(Wide<T>(centroid) + detail::squares_over_centroid(*this).value());
         return isfinite(length) ? length : centroid + square_over_centroid();  // overflow
     }
-    /// k^2/h, the distance from the centre of gravity to the centre of oscillation. If a link is
-    /// hung by its centre of oscillation, k^2/h and h are exchanged, §6.
+    /// k^2/h, the distance from the centre of gravity to the centre of oscillation, §6.
     T square_over_centroid() const {
         return static_cast<T>(detail::squares_over_centroid(*this).value());
     }

@@ -19,10 +19,9 @@
 ///     p.tension;                                             // 2 times the weight
 ///
 /// Greenhill (1908) §1. A conical pendulum of height lambda turns with the angular speed n = sqrt(g
-/// / lambda); lambda is the conical height of that speed. Modes and shapes of a chain depend on
-/// lengths and ratios of weights only; gravity g converts their conical heights to speeds. Units:
-/// any consistent set if gravity is given, else metres and seconds; angles in rad. Functions are
-/// O(1) and throw InvalidArgument unless arguments are positive and finite.
+/// / lambda); lambda is the conical height of that speed. Units: any consistent set if gravity is
+/// given, else metres and seconds; angles in rad. Functions are O(1) and throw InvalidArgument
+/// unless arguments are positive and finite.
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// Direction of rotation: positive or negative angular speed. It matters to flywheels.
@@ -178,8 +177,7 @@ template <Real T>
 [[nodiscard]] HeldPlummet<T> held_plummet(const T& upper_thread, const T& lower_thread,
                                           const T& distance, const T& height);
 
-/// Resistance of the air over the weight, CA / CN, measured with the whirling machine. There the
-/// plummet's thread hangs from an arm of length `arm`. It is adjusted until the arm is
+/// Resistance of the air over the weight, CA / CN, measured with the whirling machine: the arm is
 /// perpendicular to the vertical plane through the axis and the plummet. §1 (8). Accuracy: 0.5 ulp.
 template <Real T>
 [[nodiscard]] T air_resistance(const T& arm, const T& height) {
@@ -187,8 +185,8 @@ template <Real T>
     return arm / height;
 }
 
-/// Length of thread that the whirling machine needs for a circle of `radius`: sqrt(arm^2 + height^2
-/// + radius^2). Accuracy: 2 ulp.
+/// Thread that the whirling machine needs for a circle of `radius`: sqrt(arm^2 + height^2 +
+/// radius^2). Accuracy: 2 ulp.
 template <Real T>
 [[nodiscard]] T whirling_thread(const T& arm, const T& height, const T& radius) {
     using std::hypot;
@@ -212,11 +210,10 @@ struct CarriedInclinations {
     int count = 0;
 };
 
-/// All steady inclinations d between -pi/2 and pi/2 of a plummet whose support runs in a circle of
-/// radius b: lambda tan d = b + l sin d, §1 (9). One is always outwards. Two more are inwards if
-/// lambda < l and b^(2/3) <= l^(2/3) - lambda^(2/3); the steeper one is unstable, and the other may
-/// be. Accuracy: 4 ulp, times 1 / |1 - (cos d_meet / cos d)^3| near the inclination d_meet at which
-/// the inner two meet. Cost: 0.3 microseconds.
+/// The steady inclinations d between -pi/2 and pi/2 of a plummet whose support runs in a circle of
+/// radius b: lambda tan d = b + l sin d, §1 (9). One is outwards. Two more are inwards if lambda <
+/// l and b^(2/3) <= l^(2/3) - lambda^(2/3). Accuracy: 4 ulp, times 1 / |1 - (cos d_meet / cos d)^3|
+/// near the inclination d_meet at which the inner two meet. Cost: 0.3 microseconds.
 template <Real T>
 [[nodiscard]] CarriedInclinations<T> carried_inclinations(const T& length, const T& height,
                                                           const T& radius);

@@ -150,7 +150,7 @@ REVCHAIN_DECLARE_ANALYTIC
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordBranch branch(const Cord& cord, const BranchOptions& options);
 
-/// Sets how far to follow all branches of a cord. Give either `min_conical_height` or
+/// Sets how far to follow branches of a cord. Give either `min_conical_height` or
 /// `max_angular_speed`.
 struct CordDiagramOptions {
     std::optional<double> min_conical_height{};
@@ -177,13 +177,13 @@ REVCHAIN_DECLARE_ANALYTIC
 ///
 /// Accuracy: the shape is within its `error_bound`, an estimate, of the exact one at its conical
 /// height. That height is the given one, or within 1e-12 of the one at which the number is reached
-/// (tests/cpp/cord_branches.cpp). It is less accurate for a tip radius that hardly changes with the
-/// height. Cost: that of the branch up to there. Throws as for a chain, and
+/// (tests/cpp/cord_branches.cpp), less accurate where the number hardly changes with the height.
+/// Cost: that of the branch up to there. Throws as for a chain, and
 /// for a bob.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordShape steady_shape(const Cord& cord, const OnBranchOptions& options);
 
-/// All shapes on the branch at which the number has its given value, at most `max_shapes`. The list
+/// The shapes on the branch at which the number has its given value, at most `max_shapes`. The list
 /// is empty if the number is not reached. Otherwise as `steady_shape`.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordShapesOnBranch shapes_on_branch(const Cord& cord, const OnBranchOptions& options,

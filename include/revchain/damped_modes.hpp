@@ -44,8 +44,8 @@ struct DampedModes {
     Status status = Status::success;       ///< `tolerance_not_met`: a bound is not proved
 
     Index size() const noexcept { return exponent.size(); }
-    /// These return the speed of the oscillation (0: the motion only decays or grows), -Re s / |s|,
-    /// and the time in which it decays by the factor e (negative: it grows).
+    /// These return the speed of the oscillation, -Re s / |s|, and the time in which it decays by
+    /// the factor e (negative: it grows).
     double damped_frequency(Index j) const { return std::abs(exponent[j].imag()); }
     double damping_ratio(Index j) const { return -exponent[j].real() / std::abs(exponent[j]); }
     double decay_time(Index j) const { return -1 / exponent[j].real(); }

@@ -47,8 +47,7 @@ struct ExplainOptions {
 REVCHAIN_DECLARE
 [[nodiscard]] Explanation explain(const Chain<double>& chain, const ExplainOptions& options = {});
 
-/// Deleted: for rigs, cords and held systems there is no choice of methods by cost. Call `modes`
-/// and read `RigModes::method`, `CordModes::method` or `Modes::method`.
+/// Deleted: for rigs, cords and held systems there is no choice of methods by cost.
 Explanation explain(const Rig& rig, const ExplainOptions& options = {}) = delete;
 Explanation explain(const Cord& cord, const ExplainOptions& options = {}) = delete;
 template <class System>

@@ -9,8 +9,7 @@
 #include "revchain/numeric/progress.hpp"
 #include "revchain/rig.hpp"
 
-/// Forced motion of small amplitude of a rig, also with dashpots, springs at pins or a trolley; not
-/// with dashpots in a fluid that turns.
+/// Forced motion of small amplitude of a rig, also with dashpots, springs at pins or a trolley.
 ///
 ///     const revchain::Chain<double> chain({revchain::plummet(9.81, 1.0)});
 ///     const revchain::Rig rig(chain, {.pins = {{.damping = 0.2}}});  // N m s/rad

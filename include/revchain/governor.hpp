@@ -66,8 +66,7 @@ class GovernorMotion {
     /// The range of angles, whole turns included; -infinity and infinity for revolutions.
     double least_angle() const noexcept { return least_; }
     double greatest_angle() const noexcept { return greatest_; }
-    /// theta'^2 that the energy gives at the bottom and at the top; negative if it is too small for
-    /// that point.
+    /// theta'^2 at the bottom and at the top by the energy; negative if that point is not reached.
     double energy_at_bottom() const noexcept { return bottom_; }
     double energy_at_top() const noexcept { return top_; }
     EllipticModulus modulus() const { return functions_.modulus(); }

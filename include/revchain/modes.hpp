@@ -31,7 +31,7 @@ namespace revchain::inline REVCHAIN_BUILD {
 /// How conical heights are found. The last three are in methods.hpp.
 enum class ModesMethod {
     automatic,     ///< the cheapest available method that meets the tolerance
-    bisection,     ///< bisection on counts of modes: any chain, any modes, any tolerance
+    bisection,     ///< bisection on counts of modes
     condensed,     ///< for a few of the slowest modes of a long chain, condensed to blocks; 2 ulp
     aberth,        ///< all modes of a small chain at once (Ehrlich and Aberth)
     interpolated,  ///< for many modes: interpolates the characteristic polynomial
@@ -64,8 +64,7 @@ struct Certificate {
     Vector<Index> above_upper;
 };
 
-/// Whirl modes of a chain, slowest first. Mode k is at index k - first. In an empty window, `first`
-/// is the number of the next faster mode.
+/// Whirl modes of a chain, slowest first. Mode k is at index k - first.
 template <Real T>
 struct Modes {
     Index first = 1;               ///< number of the slowest mode here
@@ -84,7 +83,7 @@ struct Modes {
     }
     /// (k,) largest unbalanced force at a pin over the largest sum of magnitudes at a pin
     const Vector<T>& residual() const { return details().residual; }
-    /// k lists: distances from the free end at which the mode crosses the axis
+    /// k lists: distances from the free end at which the mode crosses the axis.
     const std::vector<Vector<T>>& nodes() const { return details().nodes; }
     /// (N+1) offsets of the mode at index j, computed alone unless `shapes` has been called.
     [[nodiscard]] Vector<T> shape(Index j) const { return lazy_shapes_.one(size(), j); }

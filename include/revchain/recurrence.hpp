@@ -20,11 +20,10 @@ struct RecurrencePencil {
     Matrix<T> B;  ///< (N, N), weight / length
 };
 
-/// The pencil of a chain. Row m - 1 is the moment about pin m of everything below it; m = 1 is
-/// (10), m = 2 is (12), m = 3 is (19). It differs from the printed relation in two points:
-/// h_{m-2}/a_{m-1} is corrected to h_{m-2}/a_{m-2}, and y_0 is an unknown in place of 1 +
-/// h_1/(lambda - l_1), which makes the relation linear in lambda. Accuracy: a few roundings an
-/// entry. Cost and memory O(N^2).
+/// The pencil of a chain. Row m - 1 is the moment about pin m of everything below it. It differs
+/// from the printed relation in two points: h_{m-2}/a_{m-1} is corrected to h_{m-2}/a_{m-2}, and
+/// y_0 is an unknown in place of 1 + h_1/(lambda - l_1), which makes the relation linear in lambda.
+/// Accuracy: a few roundings an entry. Cost and memory O(N^2).
 template <Real T>
 [[nodiscard]] RecurrencePencil<T> recurrence_matrices(const Chain<T>& chain) {
     const Index n = chain.size();

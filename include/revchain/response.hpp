@@ -32,8 +32,8 @@ struct ResponseOptions {
     Progress* progress = nullptr;  ///< read and cancelled from another thread
 };
 
-/// Steady forced motion of small amplitude, one row for each speed. For motion to and fro the
-/// numbers are amplitudes: multiply offsets and forces by cos(n t).
+/// Steady forced motion of small amplitude, one row for each speed. For motion to and fro they are
+/// amplitudes of cos(n t).
 struct Response {
     std::vector<Index> pins;
     /// (speeds, pins) positive on the side of the support; at resonance NaN, but not of the support

@@ -41,9 +41,8 @@ struct Support {
     friend bool operator==(const Support&, const Support&) = default;
 };
 
-/// A pin that slides sideways on a spring of stiffness E, Greenhill (1908) §2 (7). For small
-/// amplitudes and without carriage it acts as a thread of length W/E, W the weight of the chain.
-/// Throws InvalidArgument unless stiffness > 0 and carriage weight >= 0, both finite.
+/// A pin that slides sideways on a spring of stiffness E, Greenhill (1908) §2 (7). Throws
+/// InvalidArgument unless stiffness > 0 and carriage weight >= 0.
 [[nodiscard]] inline Support horizontal_spring(const Wide<double>& stiffness,
                                                double carriage_weight = 0) {
     detail::require_positive("horizontal_spring", "stiffness", stiffness.high);
@@ -87,8 +86,7 @@ struct Flywheel {
 };
 
 /// A wheel on free bearings: its spin is constant, `spin` rad/s about the link's axis as seen from
-/// outside. Throws InvalidArgument for a negative weight or radius of gyration, gravity <= 0,
-/// numbers not finite, and if the momentum overflows.
+/// outside. Throws InvalidArgument for numbers out of range.
 [[nodiscard]] Flywheel free_flywheel(double weight, double radius_of_gyration, double spin,
                                      double gravity = conical_pendulum::standard_gravity);
 
@@ -110,7 +108,7 @@ struct Displaced {
     friend bool operator==(const Displaced&, const Displaced&) = default;
 };
 
-/// The fluid displaced by a body of one density: centre and radius of gyration are the body's.
+/// The fluid displaced by a body of one density.
 [[nodiscard]] inline Displaced displaced_by(const Link<double>& link, double weight,
                                             double added_weight = 0) {
     return {weight, link.centroid, link.gyration_ratio, added_weight};
@@ -155,8 +153,8 @@ class Rig {
     Flywheel flywheel(Index m) const {
         return with_.flywheels.empty() ? Flywheel{} : with_.flywheels[static_cast<std::size_t>(m)];
     }
-    /// The fluid that link m displaces. Without an entry, or with a default one, the weights are 0,
-    /// and centroid and radius of gyration are those of the link.
+    /// The fluid that link m displaces; by default the weights are 0, and centroid and radius of
+    /// gyration those of the link.
     Displaced displaced(Index m) const {
         const Displaced given =
             with_.displaced.empty() ? Displaced{} : with_.displaced[static_cast<std::size_t>(m)];
@@ -189,14 +187,13 @@ class Rig {
         return (fluid.weight == 0 && fluid.added_weight == 0) ||
                (fluid.centroid == link.centroid && fluid.gyration_ratio == link.gyration_ratio);
     }
-    /// Whether any link has a constant momentum, so that the two directions of rotation differ.
+    /// Whether the two directions of rotation differ.
     bool has_momentum() const {
         return std::any_of(
             with_.flywheels.begin(), with_.flywheels.end(),
             [](const Flywheel& wheel) { return wheel.momentum != Wide<double>(0.0); });
     }
-    /// Whether small motions are those of the chain alone: a firm support, no wheel, no fluid, no
-    /// spring, dashpot or drag, and no link that stands. The support may be carried round.
+    /// Whether small motions are those of the chain alone. The support may be carried round.
     bool is_plain_chain() const {
         if (has_pin_springs() || is_damped()) return false;
         for (Index m = 0; m < size(); ++m)

@@ -22,9 +22,8 @@
 ///     m.forward.shape(0)[1];           // offset of the second pin, free end first
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// Selects modes of a rig, as `ModesOptions` does. With momentum, `first`, `count` and windows
-/// apply to each direction of rotation; a window of speeds applies to |n|. Mode numbers beyond
-/// those available give no modes.
+/// Selects modes of a rig, as `ModesOptions` does. With momentum they apply to each direction of
+/// rotation, a window of speeds to |n|. Mode numbers beyond those available give no modes.
 struct RigModesOptions {
     Index first = 1;
     std::optional<Index> count{};
@@ -106,9 +105,9 @@ struct RigModes {
     Status status = Status::success;  ///< see `modes`
 };
 
-/// Whirl speeds of small amplitude of a rig, Greenhill (1908) §8 (21) with supports, standing
-/// links, floats and flywheels. The radius of a support carried round has no effect. A plain chain
-/// is solved as a chain, to `rtol`; other rigs to full accuracy.
+/// Whirl speeds of small amplitude of a rig, Greenhill (1908) §8 (21). The radius of a support
+/// carried round has no effect. A plain chain is solved as a chain, to `rtol`; other rigs to full
+/// accuracy.
 ///
 /// Method without momentum: lambda K y = M y. If K > 0 or M >= 0, counts number the heights
 /// (Sylvester): positive ones as modes, negative ones in `other`. With momentum: K + n G - (n^2/g)
@@ -131,9 +130,9 @@ namespace detail {
 class RigRoots;
 }
 
-/// Counts the modes of one rig above a conical height or below a speed. The rig is assembled once,
-/// and each count is one O(N) pass; for a rig that needs discs (see `modes`) the constructor finds
-/// all roots. Counts are proved and ties decided as by `ModeCounter`.
+/// Counts the modes of one rig above a conical height or below a speed, proved as by `ModeCounter`.
+/// A count is one O(N) pass; for a rig that needs discs (see `modes`) the constructor finds all
+/// roots.
 class RigModeCounter {
    public:
     /// Throws InvalidArgument for a rig or gravity that `modes` refuses.

@@ -75,8 +75,7 @@ class SkippingRope {
     /// The point at the arc length `arc`, 0 <= arc <= length. Throws InvalidArgument outside.
     [[nodiscard]] RopePoint at_arc(double arc) const;
 
-    /// The rope with its ends moved to another span, with the same length and angular momentum. The
-    /// work done on it, over the mass per length, is the gain in moment_of_inertia() n^2 / 2.
+    /// The rope with its ends moved to another span, with the same length and angular momentum.
     [[nodiscard]] SkippingRope drawn_to(double span) const;
 
    private:
@@ -94,7 +93,7 @@ class SkippingRope {
 };
 
 /// The data of a rope that winds round its axis, all positive; the least radius may be 0 (a plane
-/// rope). With equal radii the rope is a helix.
+/// rope).
 struct TortuousGiven {
     double least_radius, greatest_radius;
     double angular_speed;                                 ///< n
@@ -131,9 +130,8 @@ class TortuousRope {
     double height_times_tension() const noexcept { return strength2_; }
     EllipticModulus modulus() const { return functions_.modulus(); }
 
-    // A half wave runs from one point nearest to the axis to the next. Its length along the axis,
-    // slack (length of rope minus length along the axis), length of rope, and angle round the axis
-    // (pi for a plane rope, which crosses it).
+    // A half wave runs from one point nearest to the axis to the next: its length along the axis,
+    // slack, length of rope, and angle round the axis.
     double half_wave() const { return 2 * functions_.complete().K * scale_; }
     [[nodiscard]] double half_wave_slack() const;
     [[nodiscard]] double half_wave_length() const { return half_wave() + half_wave_slack(); }

@@ -65,8 +65,7 @@ struct GovernorEffort {
 /// / (I + J) is added to the numerator if the shaft has the moment of inertia I and turns freely.
 ///
 /// Accuracy measured: squares of speeds 1e-12 (tests/cpp/sleeve_governor.cpp), periods 1e-14
-/// (tests/python/test_governor.py). Cost: 50 ns a point, 0.1 ms for all
-/// equilibria, 0.3 ms close to a critical speed.
+/// (tests/python/test_governor.py). Cost: 50 ns a point, 0.1 ms for all equilibria.
 class SleeveGovernor {
    public:
     /// Throws InvalidArgument for numbers out of range, lower links too short for the sleeve at

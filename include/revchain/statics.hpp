@@ -48,8 +48,8 @@ struct ForceDiagram {
 
 /// The straight chain with the weights of the shape moved to the axis at their levels. Each link's
 /// length is the height between its two pins in the shape. Its mode at the shape's conical height
-/// has the offsets of the shape, at any inclination below a right angle. Throws InvalidArgument as
-/// `force_diagram`, and for an inverted link.
+/// has the offsets of the shape. Throws InvalidArgument as `force_diagram`, and for an inverted
+/// link.
 [[nodiscard]] Chain<double> transferred_to_axis(const Chain<double>& chain,
                                                 const SteadyShape& shape);
 
@@ -89,12 +89,10 @@ struct TransverseModes {
     }
 };
 
-/// All transverse modes of weights on a thread of uniform tension, held at both ends. They are also
-/// the modes of a funicular polygon with this horizontal tension, perpendicular to its plane.
-/// `weight` (n); `position` (n + 2) with both supports. Method: an equivalent hanging chain
-/// (`modes`). Accuracy: heights 2 ulp (tests/cpp/statics.cpp), within `error_bound`. Throws
-/// InvalidArgument unless there are weights, weights and tension are positive, positions increase,
-/// and all numbers are finite.
+/// All transverse modes of weights on a thread of uniform tension, held at both ends. `weight` (n);
+/// `position` (n + 2) with both supports. Method: an equivalent hanging chain (`modes`). Accuracy:
+/// heights 2 ulp (tests/cpp/statics.cpp), within `error_bound`. Throws InvalidArgument unless there
+/// are weights, weights and tension are positive, positions increase, and all numbers are finite.
 template <Real T>
 [[nodiscard]] TransverseModes<T> transverse_modes(const std::type_identity_t<Vector<T>>& weight,
                                                   const std::type_identity_t<Vector<T>>& position,

@@ -23,7 +23,7 @@ namespace revchain::inline REVCHAIN_BUILD {
 struct Thorough {
     explicit constexpr Thorough() = default;
 };
-/// Passed as the last argument, it selects all methods.
+/// The last argument that selects all methods.
 inline constexpr Thorough thorough{};
 
 namespace detail {

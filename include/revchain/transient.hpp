@@ -24,16 +24,15 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 /// A prescribed motion of the support, or a force on it, in time. Times ascend; between two of them
 /// velocities, accelerations and forces are straight lines, offsets a cubic spline. Two equal times
-/// are a jump of accelerations or forces. A support that has a spring is moved at the far end of
-/// the spring, any other itself.
+/// are a jump of accelerations or forces. A support on a spring is moved at the far end of the
+/// spring.
 struct SupportMotion {
     enum class Given { acceleration, velocity, offset, force };
     Given given = Given::acceleration;
     std::vector<double> time{};   ///< >= 0; before the first and after the last no acceleration
     std::vector<double> value{};  ///< for each time. The first offset is 0 unless offsets are given
     /// For offsets: true if the support rests before the first time and after the last. If false,
-    /// it goes on with the velocities at the ends. One cubic then holds over the first two pieces,
-    /// and one over the last two.
+    /// it goes on with the velocities at the ends.
     bool rests = true;
 };
 
@@ -68,7 +67,6 @@ struct Transient {
 
 /// Motion in time: Q(d/dt) q = load with the matrices of `damped_modes`, as the sum of all damped
 /// motions q_j, each driven by q_j^T load: exact for loads that are polynomials between two times.
-/// The support's own dashpot acts on its velocity over the ground.
 ///
 /// If damping is critical, so that two motions become one, the matrix exponential of the
 /// first-order form goes from time to time instead. Accuracy measured (tests/cpp/transient.cpp):

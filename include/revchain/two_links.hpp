@@ -93,8 +93,7 @@ template <Real T>
     return detail::hung_link("link_on_spring", "deflection", deflection, link);
 }
 
-/// Deflection W/E of a spring with stiffness E under the weight W. A weight on the spring moves as
-/// on a thread of that length, §2 (7).
+/// Deflection W/E of a spring with stiffness E under the weight W, §2 (7).
 template <Real T>
 [[nodiscard]] T spring_deflection(const T& weight, const T& stiffness) {
     detail::require_positive("spring_deflection", "weight", weight, "stiffness", stiffness);
@@ -102,8 +101,7 @@ template <Real T>
 }
 
 /// Seconds a day that a clock loses because the support of its pendulum yields by `deflection` to
-/// its weight: 86400 (1 - sqrt(l / lambda)) for a clock that is right on a firm support. Accuracy:
-/// 8 ulp, also for tiny deflections and where deflection and pendulum length nearly agree.
+/// its weight: 86400 (1 - sqrt(l / lambda)). Accuracy: 8 ulp.
 template <Real T>
 [[nodiscard]] T seconds_lost_per_day(const T& deflection, const CompoundLink<T>& link) {
     using std::max, std::sqrt;
@@ -122,9 +120,9 @@ template <Real T>
                        : T(86400) * ((half + root) / over);
 }
 
-/// Height of the motion in which a link stands on its lowest point, balanced above a thread or a
-/// moving hand: (l + lambda)(a - lambda) = a h, §6 (12), with h and l measured upwards from that
-/// point. It is 0 (no such motion) if the radius of gyration is 0 and h >= a. Accuracy: 5 ulp.
+/// Height of the motion in which a link stands on its lowest point, above a thread or a moving
+/// hand: (l + lambda)(a - lambda) = a h, §6 (12), with h and l measured upwards from that point. It
+/// is 0 (no such motion) if the radius of gyration is 0 and h >= a. Accuracy: 5 ulp.
 template <Real T>
 [[nodiscard]] T standing_link(const T& thread, const CompoundLink<T>& link) {
     detail::require_positive("standing_link", "thread", thread);
@@ -155,8 +153,8 @@ template <Real T>
                                  detail::upper_share(standing_weight, rod, hung_weight, thread));
 }
 
-/// A steady shape of two links, lowest first. It stands for itself and for its mirror image: its
-/// free end (or lowest centre of oscillation) has a positive offset.
+/// A steady shape of two links, lowest first, with its free end (or lowest centre of oscillation)
+/// on the positive side.
 template <Real T>
 struct PairShape {
     std::array<T, 2> inclination;  ///< to the vertical
@@ -213,8 +211,7 @@ template <Real T>
 }
 
 /// The shape in which a compound link stands on its lowest point, §6 (12) with the secants of (10).
-/// Both tensions are that of the thread, or of the hand that moves as the thread's end does.
-/// Otherwise as `standing_plummet_shape`.
+/// Both tensions are that of the thread. Otherwise as `standing_plummet_shape`.
 template <Real T>
 [[nodiscard]] std::optional<PairShape<T>> standing_link_shape(const T& thread,
                                                               const CompoundLink<T>& link,
@@ -285,10 +282,10 @@ template <Real T>
 }
 
 /// Distance of the clapper's pin below the support of its bell with which both swing, or whirl at
-/// any inclination, as one piece. The bell is then silent. The distance is a2 = w (l2 - l1)/(w + l1
-/// - h1) with w = W2 h2/W1, §8 (16), at the height l1 + a2. Accuracy: 4 ulp for the data as given,
-/// also where l1 and l2 nearly agree. Also throws InvalidArgument unless the clapper has the
-/// shorter pendulum length.
+/// any inclination, as one piece, so that the bell is silent: a2 = w (l2 - l1)/(w + l1 - h1) with w
+/// = W2 h2/W1, §8 (16), at the height l1 + a2. Accuracy: 4 ulp for the data as given, also where l1
+/// and l2 nearly agree. Also throws InvalidArgument unless the clapper has the shorter pendulum
+/// length.
 template <Real T>
 [[nodiscard]] T pin_of_silent_clapper(const T& bell_weight, const CompoundLink<T>& bell,
                                       const T& clapper_weight, const CompoundLink<T>& clapper) {
@@ -308,9 +305,9 @@ template <Real T>
 }
 
 /// Distance CD from the pin C of a uniform rod, at the distance `pin` = CG from its middle G, to
-/// the point D where the rod does not bend. A joint there leaves it straight: CG.CD = CA^2, A the
-/// end above C, §8 (17). Accuracy: 2.5 ulp for pins up to 0.49 length. Also throws InvalidArgument
-/// unless length/6 < pin < length/2: for C in the middle third D is off the rod.
+/// the point D where the rod does not bend: CG.CD = CA^2, A the end above C, §8 (17). Accuracy: 2.5
+/// ulp for pins up to 0.49 length. Also throws InvalidArgument unless length/6 < pin < length/2:
+/// for C in the middle third D is off the rod.
 template <Real T>
 [[nodiscard]] T joint_without_bending(const T& length, const T& pin) {
     constexpr std::string_view place = "joint_without_bending";
