@@ -81,9 +81,9 @@ template <Real T>
     const Chain<T>& chain, const T& ratio, const std::optional<std::type_identity_t<T>>& joint = {},
     const std::array<bool, 2>& inverted = {});
 
-/// How a swing ends. `turns`: the bell comes to rest before the clapper strikes. `at_rest`: bell and
-/// clapper start in balance, stable or not, and do not move. `too_long`: neither in 300 periods of
-/// the slower body or 30,000 of the faster one.
+/// How a swing ends. `turns`: the bell comes to rest before the clapper strikes. `at_rest`: bell
+/// and clapper start in balance and do not move. `too_long`: neither in 300 periods of the slower
+/// body or 30,000 of the faster one.
 enum class StrikeStatus { strikes, turns, at_rest, too_long };
 
 inline constexpr std::array<std::string_view, 4> strike_status_names{"strikes", "turns", "at_rest",

@@ -40,7 +40,7 @@ struct ForcedMotion {
     /// Slower modes of the rig without its dashpots; a support that is moved itself is then firm.
     Vector<Index> modes_below;
     std::vector<char> resonant;                  ///< whether it cannot be told from a resonance
-    Vector<std::complex<double>> support_force;  ///< pull on the support; on the moved end of a spring
+    Vector<std::complex<double>> support_force;  ///< pull on the support, or a spring's moved end
 };
 
 /// Forced motion, after free motions have died away: Q(i n) q = load with the matrices of
