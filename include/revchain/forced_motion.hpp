@@ -19,8 +19,8 @@
 ///     std::arg(r.offset(0, 0));     // -1.50611 rad: how far it is behind its support
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// The amplitude that drives the rig: one of `radius`, `acceleration` and `force`. If none is given,
-/// it is the radius of the rig's own support. The drive goes to and fro as cos(n t), or on a circle
+/// The amplitude that drives the rig: one of `radius`, `acceleration` and `force`. Without one it
+/// is the radius of the rig's own support. The drive goes to and fro as cos(n t), or on a circle
 /// with the speed n if the rig has momentum.
 struct ForcedMotionOptions {
     std::vector<double> angular_speed{};  ///< n, rad/s, positive; with momentum of either sign
