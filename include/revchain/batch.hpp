@@ -31,8 +31,8 @@ struct BatchColumn {
     }
 };
 
-/// Many chains with equal numbers of links. Without `centroid` the links are plummets. With it give
-/// either `pendulum_length` or `radius_of_gyration`.
+/// Many chains with equal numbers of links. With `centroid` give either `pendulum_length` or
+/// `radius_of_gyration`; without it the links are plummets.
 template <Real T>
 struct ChainBatch {
     Index chains = 0;
@@ -55,18 +55,13 @@ struct BatchOptions {
 /// unit of length. Greenhill (1908) §8 (21) with sec delta = 1.
 ///
 /// Method: in float and double, one chain to a SIMD lane (pencil/batch/spectrum.hpp). `modes`
-/// solves the other chains one by one: those for which the lanes prove nothing, those with massless
-/// links or centroids at or above the pin, and all chains in other scalars. Accuracy, measured up
-/// to N = 100 (tests/cpp/batch.cpp and larger samples): 4.5 ulp for plummets and rods, 6 for other
-/// links, 14 for links with their mass in one point between the pins. Counts verify heights to 16 +
-/// N/4 ulp. Results are bitwise the same for any number of threads and any order of the chains;
-/// another `count` or processor may change last digits. Cost: 0.4 microseconds for all modes of ten
-/// links. Memory: the result, and a few numbers for each link of 16 chains a thread.
-/// Throws InvalidArgument for a number that `Chain` refuses, naming chain, link and value. Also
-/// throws for chains without links, a negative number of chains, a count below 1 or beyond the
-/// modes of some chain, a negative number of threads, and a chain whose heights cannot be proved to
-/// half the digits of T. Massless links cost modes; chains with different numbers of modes need a
-/// count.
+/// solves other chains one by one, such as those with massless links. Accuracy, measured up to N =
+/// 100 (tests/cpp/batch.cpp): 4.5 ulp for plummets and rods, 6 for other links, 14 for links with
+/// their mass in one point between the pins. Counts verify heights to 16 + N/4 ulp. Results are
+/// bitwise the same for any number of threads. Cost: 0.4 microseconds for all modes of ten links.
+/// Throws InvalidArgument for a number that `Chain` refuses, naming chain, link and value, and for
+/// a count beyond the modes of some chain. Massless links cost modes; chains with different numbers
+/// of modes need a count.
 template <Real T>
 [[nodiscard]] Table<T> conical_heights(const ChainBatch<T>& batch,
                                        const BatchOptions& options = {});

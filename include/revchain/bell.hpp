@@ -43,12 +43,10 @@ template <Real T>
 using ByBellDatum = std::array<T, bell_datum_names.size()>;
 
 /// The two modes of small motion about a position of rest. If both modes swing, or both fall, bell
-/// and clapper lean to the same side in the first and to opposite sides in the second, so they can
-/// swing as one piece in the first only. If both swing, the first is the slower one with the pin of
-/// the clapper below the axle, the faster one with the pin above it. If both fall, it is the other
-/// way round.
-/// An inverted body stands on its upper pin. A height below 0 is that of a motion that falls; if one
-/// mode swings and the other falls, the first is the one that swings.
+/// and clapper lean to the same side in the first and to opposite sides in the second. If both
+/// swing, the first is the slower one with the pin of the clapper below the axle, the faster one
+/// with the pin above it. If both fall, it is the other way round. A height below 0 is that of a
+/// motion that falls; if one mode swings and the other falls, the first is the one that swings.
 template <Real T>
 struct BellAndClapper {
     std::array<T, 2> conical_height;
@@ -62,33 +60,30 @@ struct BellAndClapper {
     ByBellDatum<T> derivative;       ///< of the first inclination ratio with respect to each datum
 };
 
-/// Both modes of a bell (upper link) and its clapper (lower link), how far they are from one piece,
-/// and the derivatives of the first mode's ratio of inclinations. Accuracy: heights and ratios 2
+/// Both modes of a bell (upper link) and its clapper (lower link). Accuracy: heights and ratios 2
 /// ulp, derivatives, each times its datum, 1e-15 of the largest (tests/cpp/bell.cpp). Cost O(1).
 /// Throws InvalidArgument unless there are two links, both with weight.
 /// `joint`: distance of the clapper's pin below the axle, instead of the bell's length; negative
-/// above it, and 0 in it: then each swings alone. `inverted`: whether clapper and bell stand on
-/// their upper pins in the position of rest. A bell with its centroid above the axle is an inverted
-/// one: give both distances with the opposite sign.
+/// above it. `inverted`: whether clapper and bell stand on their upper pins at rest. A bell with
+/// its centroid above the axle is an inverted one: give both distances with the opposite sign.
 template <Real T>
 [[nodiscard]] BellAndClapper<T> bell_and_clapper(
     const Chain<T>& chain, const std::optional<std::type_identity_t<T>>& joint = {},
     const std::array<bool, 2>& inverted = {});
 
 /// Returns, for each datum, the value nearest to the present one that gives the first mode the
-/// inclination ratio `ratio`, with all other data constant; NaN if there is none. Only values count
-/// that keep the pin on its side of the axle, and the stability of the position of rest. A ratio of
-/// 1 makes bell and clapper one piece; a bell rings with a ratio far enough from 1. Each value is a
-/// root of a quadratic. Cost O(1). Throws InvalidArgument as `bell_and_clapper`, for a ratio <= 0
-/// and a joint of 0.
+/// inclination ratio `ratio`, with all other data constant; NaN if there is none. The pin stays on
+/// its side of the axle, and the position of rest as stable as it is. A ratio of 1 makes bell and
+/// clapper one piece. Cost O(1). Throws InvalidArgument as `bell_and_clapper`, for a ratio <= 0 and
+/// a joint of 0.
 template <Real T>
 [[nodiscard]] ByBellDatum<T> bell_and_clapper_with_ratio(
     const Chain<T>& chain, const T& ratio, const std::optional<std::type_identity_t<T>>& joint = {},
     const std::array<bool, 2>& inverted = {});
 
-/// How a swing ends. `turns`: the bell comes to rest before the clapper strikes. `at_rest`: bell and
-/// clapper start in balance, stable or not, and do not move. `too_long`: neither in 300 periods of
-/// the slower body or 30,000 of the faster one.
+/// How a swing ends. `turns`: the bell comes to rest before the clapper strikes. `at_rest`: bell
+/// and clapper start in balance and do not move. `too_long`: neither in 300 periods of the slower
+/// body or 30,000 of the faster one.
 enum class StrikeStatus { strikes, turns, at_rest, too_long };
 
 inline constexpr std::array<std::string_view, 4> strike_status_names{"strikes", "turns", "at_rest",
@@ -97,8 +92,8 @@ inline constexpr std::array<std::string_view, 4> strike_status_names{"strikes", 
 /// How bell and clapper are released, at rest. Angles in rad.
 struct StrikeStart {
     double clearance;  ///< angle of the clapper in the bell from the middle to contact, below pi/2
-    /// Angle of the bell from its lowest position, 0 to pi. If left out, the bell falls from the balance,
-    /// mouth up, in a full circle; it starts 1e-4 from the balance.
+    /// Angle of the bell from its lowest position, 0 to pi. If left out, the bell falls from the
+    /// balance, mouth up, in a full circle.
     std::optional<double> amplitude{};
     /// Angle of the clapper in the bell, towards the lower side; at +-clearance it rests on that
     /// side while the bell pushes it. If left out: in a full circle -clearance; else it hangs free
@@ -114,17 +109,16 @@ struct Strike {
     double bell_angle;  ///< of the bell past its lowest position, rad
     double relative_speed;  ///< of the clapper in the bell, rad/s, > 0 towards the leading side
     double time;            ///< after the start, s
-    /// Estimated error: of `bell_angle` in rad, of `relative_speed` and `time` as a part of each.
-    /// It is infinite if rounding decides whether or where the clapper strikes.
+    /// Estimated error: of `bell_angle` in rad, of `relative_speed` and `time` as a part of each;
+    /// infinite if rounding decides about the blow.
     double error_estimate;
 };
 
-/// The first blow of the clapper in a swing of the bell up to its next turn. A clapper that rests
-/// on a side of the bell moves with it while the bell pushes it, then flies free. Angles count from
-/// the lowest position of the bell, inverted or not; if one of the two bodies is inverted, the
-/// clapper points the other way in the middle of the bell. Throws InvalidArgument for angles out of
-/// range, gravity not positive, and without `amplitude` if one of the two bodies is inverted.
-/// Cost: 0.1 ms.
+/// The first blow of the clapper in a swing of the bell up to its next turn. Angles count from the
+/// lowest position of the bell, inverted or not; if one of the two bodies is inverted, the clapper
+/// points the other way in the middle of the bell. Throws InvalidArgument for angles out of range,
+/// gravity not positive, and without `amplitude` if one of the two bodies is inverted. Cost: 0.1
+/// ms.
 [[nodiscard]] Strike first_strike(const BellAndClapper<double>& bell, const StrikeStart& start);
 
 }  // namespace revchain

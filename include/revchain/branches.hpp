@@ -25,8 +25,7 @@
 ///     shape.angular_speed();                       // 2.34160 rad/s: the free end at 2 m
 ///
 /// The branch of a mode leaves the vertical at the mode's critical speed. It may turn back at folds
-/// and pass one speed several times. An isolated branch never reaches the vertical. As the speed
-/// grows, it begins in a fold or, on a spring, with a link that turns horizontal.
+/// and pass one speed several times. An isolated branch does not reach the vertical.
 namespace revchain::inline REVCHAIN_BUILD {
 
 template <class System>
@@ -63,8 +62,7 @@ enum class BranchBirth {
 
 /// A branch of steady shapes, point by point along its arc, in the units of the chain. Its arc has
 /// no unit: ds^2 = (mean of dtau^2 over the links) + (d log(conical height))^2, where
-/// tan(inclination) = sinh(tau). Steps along tangents are added: it falls a little short of the
-/// integral.
+/// tan(inclination) = sinh(tau).
 struct Branch {
     Index mode = 0;  ///< at which it leaves the vertical; 1 also from rest; 0 if isolated
     BranchBirth birth = BranchBirth::vertical;
@@ -83,8 +81,8 @@ struct Branch {
         return conical_pendulum::angular_speed(conical_height[point], gravity);
     }
     /// The shape at a point, balanced in double-double. Its bound is proved; at a fold it is an
-    /// estimate. Throws InvalidArgument for a point that is the straight chain (point 0 on the
-    /// branch of a mode) or past the end, and for a shape that does not balance in double-double.
+    /// estimate. Throws InvalidArgument for a point past the end, and for the straight chain (point
+    /// 0 on the branch of a mode).
     [[nodiscard]] SteadyShape shape(std::size_t point) const;
     /// The shapes of this part of the branch at a conical height, in the order of the arc.
     /// Accuracy: as `steady_shape`. Cost: a test of every point, and O(N) a shape. Throws
@@ -118,31 +116,27 @@ struct RigBranchOptions {
     Rotation direction = Rotation::forward;
 };
 
-/// The branch of steady shapes that leaves the vertical at a mode, followed along its arc through
-/// every fold until it first reaches the conical height or speed given, or ends as in `BranchEnd`.
+/// The branch of steady shapes that leaves the vertical at a mode, followed through folds to the
+/// conical height or speed given, or to another `BranchEnd`.
 ///
-/// Method: pseudo-arclength continuation of all pins at once with tridiagonal elements, in double.
-/// Each step is checked: see finite::BranchWalk. Accuracy: points about 1e-12 (measured:
+/// Method: pseudo-arclength continuation of the pins, in double. Each step is checked: see
+/// finite::BranchWalk. Accuracy: points about 1e-12 (measured:
 /// tests/cpp/finite/branch/shape_on_branch.cpp), `shape` in double-double; folds are located to
-/// 1e-6 of the arc, their heights to 1e-13, mostly an ulp. If the requested part is inclined by
-/// less than 1e-3 rad, it has two points. They are the vertical and the end by the asymptotic law
-/// of the onset, balanced in double-double. If double cannot tell that end from the vertical, the
-/// vertical is the only point (`stuck`). Cost: 0.4 microseconds a link and point; 2 N numbers a
-/// point. Throws InvalidArgument for a mode number outside 1 ... `chain.mode_count()`, unless
-/// exactly one of height and speed is given, positive and finite, for a height not below that of
-/// the mode, and weights more than 1e123 apart.
+/// 1e-6 of the arc, their heights to 1e-13, mostly an ulp. Cost: 0.4 microseconds a link and point;
+/// 2 N numbers a point. Throws InvalidArgument for a mode number outside 1 ...
+/// `chain.mode_count()`, unless exactly one of height and speed is given, for a height not below
+/// that of the mode, and weights more than 1e123 apart.
 REVCHAIN_DECLARE
 [[nodiscard]] Branch branch(const Chain<double>& chain, const BranchOptions& options);
 
 /// The branch of a mode of a rig, or the branch from rest if its support is off the axis.
 ///
-/// On the axis, modes are numbered as by `modes` in the direction of rotation. Off the axis no
-/// shape is vertical. The branch from rest, `mode` 1, begins at a tenth of the first critical speed
-/// (of the rig with its support on the axis), or of the given speed if that is slower. `branches`
-/// finds the other branches. If links stand or lean against their load, a branch may begin towards
-/// slower speeds; it is followed down to a tenth of the speed of its mode. Along a branch every
-/// link keeps its posture. In the arc, the stretch of a spring over the length of the chain is
-/// sinh(tau) of one more link.
+/// On the axis, modes are numbered as by `modes` in the direction of rotation. Off the axis the
+/// branch from rest, `mode` 1, begins at a tenth of the first critical speed (of the rig with its
+/// support on the axis), or of the given speed if that is slower. If links stand or lean against
+/// their load, a branch may begin towards slower speeds; it is followed down to a tenth of the
+/// speed of its mode. In the arc, the stretch of a spring over the length of the chain is sinh(tau)
+/// of one more link.
 /// Accuracy and cost: as for chains (tests/cpp/finite/branch/rigs.cpp). Throws InvalidArgument as
 /// for chains, off the axis for a `mode` other than 1, and for springs at pins, linear drag, a
 /// dashpot at the support and a trolley that rolls freely.
@@ -190,38 +184,30 @@ struct Branches {
     std::string remark;             ///< what is proved, or may be missing
 };
 
-/// The whole diagram of branches from the first critical speed to the conical height or speed
-/// given: the branches of the modes, and isolated ones.
+/// The diagram of branches to the conical height or speed given: those of the modes, and isolated
+/// ones.
 ///
-/// Method: `branch` from every mode, then proved lists of all shapes (`steady_shapes`) at `lists`
-/// heights from the end up. Each shape is matched with a crossing of a branch. A shape without one
-/// lies on an isolated branch, which is followed from it to its end. With `thorough` as the last
-/// argument, or revchain::compiled, finite::DiagramProver then sets `complete`: it proves that no
-/// loop opens and closes between two of the heights, or finds it. `complete` is false if
-/// `consistent` is, if the budget of the proof is used up (`remark` then names the heights), or if
-/// links could hang at several inclinations. The proof shows where branches are. It is checked, not
-/// proved, that a computed branch is one of them (see finite::BranchWalk). Accuracy: as `branch`.
-/// Cost with `thorough`: down to 1/200 of the length, 5 ms for three equal plummets and 50 ms for
-/// six.
-/// Throws InvalidArgument unless one of height and speed is given, positive and finite, and `lists`
-/// >= 1; without `thorough` also for links that stand or may hang at several inclinations.
+/// Method: `branch` from every mode, then lists of shapes (`steady_shapes`) at `lists` heights. A
+/// shape that no branch passes lies on an isolated branch, which is followed from it to its end.
+/// With `thorough` as the last argument, or revchain::compiled, finite::DiagramProver then tries to
+/// prove that no loop opens and closes between two of the heights. If `complete` is false, `remark`
+/// says why. The proof shows where branches are; the computed points are checked, not proved (see
+/// finite::BranchWalk). Accuracy: as `branch`. Cost with `thorough`: down to 1/200 of the length, 5
+/// ms for three equal plummets and 50 ms for six.
+/// Throws InvalidArgument unless one of height and speed is given and `lists` >= 1; without
+/// `thorough` also for links that stand or may hang at several inclinations.
 REVCHAIN_DECLARE
 [[nodiscard]] Branches branches(const Chain<double>& chain, const DiagramOptions& options);
 REVCHAIN_DECLARE
 [[nodiscard]] Branches branches(const Chain<double>& chain, const DiagramOptions& options,
                                 Thorough);
 
-/// The whole diagram of a rig in its own posture: the branches of its modes, or the one from rest
-/// if its support is off the axis, and isolated ones. Method and proof are those of chains; for a
-/// chain without rigging it is the diagram of the chain.
+/// The diagram of a rig in its own posture: the branches of its modes, or the one from rest if its
+/// support is off the axis, and isolated ones. Method and proof are those of chains.
 ///
-/// The proof covers rigs on springs, on an arm, with flywheels and in fluids. All links must hang
-/// in tension, each at one inclination for its load, at every speed up to the given one. Below the
-/// first critical speed there is then one shape (none with the support on the axis), because the
-/// energy in the turning frame is a convex function of the sines of the inclinations. Where the
-/// stiffness of a spring times the conical height is less than the weight that moves, the
-/// centrifugal force grows faster than the pull of the spring, as the support moves outwards. Such
-/// heights are not proved, and `remark` says so.
+/// For the proof all links must hang in tension, each at one inclination for its load, at every
+/// speed up to the given one. Heights are not proved at which the stiffness of a spring times the
+/// conical height is less than the weight that moves.
 /// Throws InvalidArgument as for chains, for a rig that `branch` refuses, and if an effective
 /// tension is 0 at the height of a list.
 REVCHAIN_DECLARE
@@ -257,7 +243,7 @@ struct RigOnBranchOptions {
     std::optional<double> min_conical_height{};
 };
 
-/// The value of a number of shapes that means all.
+/// As a number of shapes it means all.
 inline constexpr std::size_t all_shapes = std::numeric_limits<std::size_t>::max();
 
 /// Shapes of one branch, in the order of its arc.
@@ -273,31 +259,25 @@ struct ShapesOnBranch {
 /// height, speed, tip inclination, tip radius or top tension.
 ///
 /// Method: continuation along the arc (see `branch`), then Newton's method on all pins and the
-/// height in double-double, with the given number as a condition. Near the vertical it starts from
-/// the onset. Accuracy: at a given height or speed inclinations to 2.3e-16 and within
-/// `error_bound`, which is proved. Tested for 1 to 1000 links, modes 1 to 10, from 1e-8 above the
-/// critical speed to a conical height of 1e-4 of the length
-/// (tests/cpp/finite/branch/shape_on_branch.cpp). It is checked step by step, not proved, that the
-/// shape is on this branch. Cost: O(N), for 100,000 rods at twice the first critical speed 0.7 s.
-/// Throws InvalidArgument for a mode number outside 1 ... `chain.mode_count()`, unless exactly one
-/// number is given, and if it is out of its range (`tip_radius` below the length, `top_tension`
-/// above the weight), or is not reached. Also throws for a `min_conical_height` not positive or not
-/// below the height of the mode, a speed not above the mode's critical speed, gravity not positive,
-/// and weights more than 1e123 apart.
+/// height in double-double, with the given number as a condition. Accuracy: at a given height or
+/// speed inclinations to 2.3e-16 and within `error_bound`, which is proved. Tested for 1 to 1000
+/// links, modes 1 to 10, from 1e-8 above the critical speed to a conical height of 1e-4 of the
+/// length (tests/cpp/finite/branch/shape_on_branch.cpp). It is checked step by step, not proved,
+/// that the shape is on this branch. Cost: O(N), for 100,000 rods at twice the first critical speed
+/// 0.7 s. Throws InvalidArgument for a mode number outside 1 ... `chain.mode_count()`, unless
+/// exactly one number is given, if it is out of its range or is not reached, and for weights more
+/// than 1e123 apart.
 REVCHAIN_DECLARE
 [[nodiscard]] SteadyShape steady_shape(const Chain<double>& chain, const OnBranchOptions& options);
 
-/// Returns the shape of a rig on one branch. On the axis `mode` is a mode of the rig. Off the axis
-/// it must be 1: the branch from rest, followed from a ten-thousandth of the first critical speed,
-/// or from below the given speed. `tip_inclination` is the magnitude of the lowest link's
-/// inclination, off the axis the inclination outwards; it is between pi/2 and pi if that link
-/// stands. `top_tension` is the tension at the topmost pin, as in `SteadyShape::tension`. Throws
-/// InvalidArgument as for chains, for a rig that `branch` refuses, and for a link without
-/// effective tension.
+/// The shape of a rig on one branch. Off the axis `mode` must be 1: the branch from rest.
+/// `tip_inclination` is the magnitude of the lowest link's inclination, off the axis the
+/// inclination outwards; it is between pi/2 and pi if that link stands. Throws InvalidArgument as
+/// for chains, and for a rig that `branch` refuses.
 REVCHAIN_DECLARE
 [[nodiscard]] SteadyShape steady_shape(const Rig& rig, const RigOnBranchOptions& options);
 
-/// All shapes on the branch at which the number has its given value, in the order of the arc, at
+/// The shapes on the branch at which the number has its given value, in the order of the arc, at
 /// most `max_shapes`. The list is empty if the number is not reached. Otherwise as `steady_shape`.
 REVCHAIN_DECLARE
 [[nodiscard]] ShapesOnBranch shapes_on_branch(const Chain<double>& chain,

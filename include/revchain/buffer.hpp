@@ -15,8 +15,7 @@
 ///     impact.blows()[0].end;      // 0.397384 s
 ///     impact(0.1).buffer_force;   // 337373 N at 0.1 s
 ///
-/// Greenhill (1908) §2: "the system is seen to deal a double blow". In contact with the buffer the
-/// carriages swing as two plummets do. Units: any consistent set.
+/// Greenhill (1908) §2: "the system is seen to deal a double blow". Units: any consistent set.
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// The data. Both carriages run with `speed`, with the coupling unloaded.
@@ -42,19 +41,15 @@ struct Blow {
 /// The motion as a function of time. Accuracy for up to 50 blows, if none only grazes
 /// (tests/cpp/buffer.cpp): positions 1e-13 of speed x time, speeds 1e-13 of the speed and of
 /// acceleration x time, times of blows 1e-13 of the last one. Errors grow with the number of blows:
-/// times of 270 are within 2e-12. Cost: 0.6 microseconds a blow, 25 ns for a state. Carriages of
-/// about the same mass deal one or two blows, a carriage behind one a thousand times lighter up to
-/// hundreds.
+/// times of 270 are within 2e-12. Cost: 0.6 microseconds a blow, 25 ns for a state.
 class BufferImpact {
    public:
-    /// Throws InvalidArgument unless all numbers and their quotients are positive and finite, if
-    /// impulses or times overflow, and for more than 100,000 blows or ten million steps to find
-    /// them.
+    /// Throws InvalidArgument unless all numbers are positive and finite, and for more than 100,000
+    /// blows.
     explicit BufferImpact(const Carriages& given);
 
     const std::vector<Blow>& blows() const noexcept { return blows_; }
-    /// The state at a time. Throws InvalidArgument for a time that is negative, or so large that
-    /// the state overflows.
+    /// The state at a time. Throws InvalidArgument for a negative time.
     [[nodiscard]] CarriageState operator()(double time) const;
 
    private:

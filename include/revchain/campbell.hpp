@@ -44,24 +44,23 @@ struct Campbell {
     std::vector<CampbellCrossing> crossings;  ///< by order, pair of speeds, motion
 };
 
-/// Returns the frequencies of small motion about the steady shape with `half_waves` at each speed.
-/// If several shapes have this number, it is the one whose free end is farthest out. What is
-/// constant in space, such as wind, turns once per turn in the turning frame: it is in resonance
-/// with a frequency that equals the speed (order 1).
+/// The frequencies of small motion about the steady shape with `half_waves` at each speed. If
+/// several shapes have this number, it is the one whose free end is farthest out. A load that is
+/// constant in space, such as wind, is in resonance with a frequency that equals the speed (order
+/// 1).
 ///
 /// Method: `steady_shapes` and `stability` at each speed (with `thorough` only in programs that
 /// link revchain::compiled). Where a frequency less a multiple of the speed changes sign between
-/// two speeds, its zero is found by interpolation; a sign that changes in a jump is not a crossing.
-/// Two crossings of one motion between neighbouring speeds are not seen. Accuracy: that of the
-/// exponents, 1e-13 of the largest; crossings 1e-12 (tests/cpp/campbell.cpp). Cost: a list of
-/// shapes and a stability at each speed, and at several speeds for each crossing. Throws
-/// InvalidArgument unless there are two speeds or more, positive, finite and ascending, an order or
-/// more, all at least 1, `half_waves` at least 1, gravity positive, and a shape at some speed; and
-/// as `steady_shapes` and `stability`. Source: W. Campbell, Trans. ASME 46 (1924).
+/// two speeds, its zero is found by interpolation. Two crossings of one motion between neighbouring
+/// speeds are not seen. Accuracy: that of the exponents, 1e-13 of the largest; crossings 1e-12
+/// (tests/cpp/campbell.cpp). Cost: a list of shapes and a stability at each speed, and at several
+/// speeds for each crossing. Throws InvalidArgument unless there are two speeds or more, positive
+/// and ascending, and a shape at one of them, and as `steady_shapes` and `stability`. Source: W.
+/// Campbell, Trans. ASME 46 (1924).
 REVCHAIN_DECLARE
 [[nodiscard]] Campbell campbell(const Chain<double>& chain, const CampbellOptions& options);
 
-/// Returns the diagram of a rig that turns forward, such as a chair on the arm of a carousel.
+/// The diagram of a rig that turns forward.
 REVCHAIN_DECLARE
 [[nodiscard]] Campbell campbell(const Rig& rig, const CampbellOptions& options);
 

@@ -25,8 +25,7 @@
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// The exponents e of the total weight and of the largest length or centroid: division by 2^e
-/// brings each to the order of 1, which prevents overflow in any units. It is exact, but for
-/// weights too far apart for one unit.
+/// brings each to the order of 1, which prevents overflow in any units.
 struct ChainUnits {
     int weight_exponent = 0;
     int length_exponent = 0;
@@ -35,12 +34,10 @@ struct ChainUnits {
 /// A hanging chain of links, lowest first: link m joins pin m (lower) and pin m + 1 (upper), pin 0
 /// is the free end, pin `size()` the support. The constructor checks it; a chain is immutable.
 ///
-/// Throws InvalidArgument, naming the link (from 0, lowest first), for no links, numbers not
-/// finite, lengths <= 0, negative weights or gyration ratios, a massless lowest link, and weights
-/// or lengths whose sum overflows. Also throws for a link that would stand, not hang (W h + a S <=
-/// 0, S the weight below it), for lengths or centroids too far apart for T (2^(max_exponent/4):
-/// 1e77 in double), and for a radius of gyration as far from its link's length. Cost O(N) once, and
-/// the memory of the stored numbers.
+/// Throws InvalidArgument, naming the link (from 0, lowest first), for no links, numbers out of
+/// range, a massless lowest link, a link that would stand (W h + a S <= 0, S the weight below it),
+/// and lengths, centroids or radii of gyration too far apart for T (2^(max_exponent/4): 1e77 in
+/// double). Cost O(N) once.
 template <Real T>
 class Chain {
    public:
@@ -72,12 +69,11 @@ class Chain {
     /// to x^exponent, x from the free end. Exponent 0 gives `uniform_rods`, 1 a cord that thickens
     /// upwards; towards -1 the mass is near the free end. Greenhill (1908) §4. `length` and
     /// `weight` are those of the whole chain. Also throws InvalidArgument for an exponent not above
-    /// -1 or above 1000, and if the weight of the lowest link is too small for T. See
-    /// system/tapered_links.hpp.
+    /// -1 or above 1000, and if the weight of the lowest link is too small for T.
     [[nodiscard]] static Chain tapered(Index count, T length, double exponent, T weight = T(1));
-    /// Returns this chain with `taper` set to the exponent from which `tapered` made its links, as
-    /// after reading them from a file. Throws InvalidArgument if a link is not the one that
-    /// `tapered` makes, to 4 ulp (if `Wide<T>` is T, to 4 + 2N). Cost: that of `tapered`.
+    /// Returns this chain with `taper` set to the exponent from which `tapered` made its links.
+    /// Throws InvalidArgument if a link is not the one that `tapered` makes, to 4 ulp (if `Wide<T>`
+    /// is T, to 4 + 2N). Cost: that of `tapered`.
     [[nodiscard]] Chain as_tapered(double exponent) const;
 
     /// The exponent of a chain that `tapered` or `as_tapered` made; no value for other chains.
@@ -119,7 +115,6 @@ class Chain {
         return units;
     }
 
-    /// Whether the links are equal, however they are stored or were made.
     friend bool operator==(const Chain& x, const Chain& y) {
         if (x.size_ != y.size_) return false;
         for (Index m = 0; m < std::max(x.distinct_links(), y.distinct_links()); ++m)

@@ -5,17 +5,15 @@
 #include "revchain/numeric/product.hpp"
 #include "revchain/numeric/status.hpp"
 
-/// One rigid link that hangs by a pin, and its whirl round the vertical axis through the pin. Its
-/// inertia about the line from the pin to the centroid is neglected, as for a rod.
+/// One rigid link that hangs by a pin, and its whirl round the vertical axis through the pin. It
+/// has no inertia about the line from the pin to the centroid.
 ///
 ///     const revchain::CompoundLink<double> bar{0.5, 0.2887};  // a uniform bar of length 1
 ///     bar.pendulum_length();                                  // 0.666695
 ///     const auto s = revchain::swung_link(bar, 0.4);          // conical height 0.4
 ///     s.inclination;                                          // 0.927328 rad
 ///
-/// Greenhill (1908) §6. Lengths in any unit, angles in rad. `swung_link` throws InvalidArgument
-/// for a centroid that is not positive, a negative radius of gyration, and numbers that are not
-/// finite.
+/// Greenhill (1908) §6. Lengths in any unit, angles in rad.
 namespace revchain::inline REVCHAIN_BUILD {
 
 template <Real T>
@@ -44,8 +42,7 @@ struct CompoundLink {
             static_cast<T>(Wide<T>(centroid) + detail::squares_over_centroid(*this).value());
         return isfinite(length) ? length : centroid + square_over_centroid();  // overflow
     }
-    /// k^2/h, the distance from the centre of gravity to the centre of oscillation. If a link is
-    /// hung by its centre of oscillation, k^2/h and h are exchanged, §6.
+    /// k^2/h, the distance from the centre of gravity to the centre of oscillation, §6.
     T square_over_centroid() const {
         return static_cast<T>(detail::squares_over_centroid(*this).value());
     }
@@ -72,8 +69,7 @@ template <Real T>
 struct SwungLink {
     T inclination;  ///< to the vertical, 0 ... pi/2
     T reaction;     ///< force at the axle over the weight
-    /// Inclination of that force to the vertical. Its line meets the vertical through the centre of
-    /// gravity at the level of the centre of oscillation.
+    /// Inclination of that force to the vertical.
     T reaction_inclination;
     T condition;  ///< relative change of inclination per relative change of data; 0 if vertical
 };
@@ -81,8 +77,9 @@ struct SwungLink {
 /// The link at the speed with conical height `height`: cos(inclination) = height / l. The axle
 /// carries the weight W downwards and W (h / height) sin(inclination) outwards. §6 (1), (2).
 /// Accuracy: 4 ulp for the data as given, also where height and l nearly agree; condition: 1e-13.
-/// It is cot d / d (1 + (|h - k^2/h| + 2 k^2/h)/l) with d the inclination. O(1). Also throws
-/// InvalidArgument for a height that is not positive and finite.
+/// It is cot d / d (1 + (|h - k^2/h| + 2 k^2/h)/l) with d the inclination. O(1). Throws
+/// InvalidArgument unless centroid and height are positive, the radius of gyration not negative,
+/// and all finite.
 template <Real T>
 [[nodiscard]] SwungLink<T> swung_link(const CompoundLink<T>& link, const T& height);
 

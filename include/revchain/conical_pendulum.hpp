@@ -19,13 +19,12 @@
 ///     p.tension;                                             // 2 times the weight
 ///
 /// Greenhill (1908) §1. A conical pendulum of height lambda turns with the angular speed n = sqrt(g
-/// / lambda); lambda is the conical height of that speed. Modes and shapes of a chain depend on
-/// lengths and ratios of weights only; gravity g converts their conical heights to speeds. Units:
-/// any consistent set if gravity is given, else metres and seconds; angles in rad. Functions are
-/// O(1) and throw InvalidArgument unless arguments are positive and finite.
+/// / lambda); lambda is the conical height of that speed. Units: any consistent set if gravity is
+/// given, else metres and seconds; angles in rad. Functions are O(1) and throw InvalidArgument
+/// unless arguments are positive and finite.
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// Direction of rotation: positive or negative angular speed. It matters to flywheels only.
+/// Direction of rotation: positive or negative angular speed. It matters to flywheels.
 enum class Rotation { forward, backward };
 
 /// Speed, period, gravity and conical height from each other, §1 (1)-(7).
@@ -121,7 +120,7 @@ void require_one_speed(std::string_view place, const Options& options) {
 }
 
 /// The conical height that options give directly or by the angular speed. Throws InvalidArgument
-/// unless exactly one is given, positive and finite.
+/// unless exactly one is given.
 template <class Options>
 double height_given(std::string_view place, const Options& options) {
     require_one_speed(place, options);
@@ -145,9 +144,8 @@ struct InclinedPendulum {
 };
 
 /// The plummet on a thread of `length` at the speed with conical height `height`: cos(inclination)
-/// = height / length. It hangs straight down if height >= length. For a compound link `length` is
-/// its pendulum length, and `tension` is not the force at its pin (`swung_link`). §1 (1), §6 (1).
-/// Accuracy: 3 ulp (tests/cpp/paper/section_1.cpp).
+/// = height / length. It hangs straight down if height >= length. For a compound link see
+/// `swung_link`. §1 (1), §6 (1). Accuracy: 3 ulp (tests/cpp/paper/section_1.cpp).
 template <Real T>
 [[nodiscard]] InclinedPendulum<T> inclined_pendulum(const T& length, const T& height) {
     using std::asin, std::sqrt;
@@ -170,18 +168,16 @@ struct HeldPlummet {
 };
 
 /// The plummet held by threads from two points of the axis, the lower one `distance` below the
-/// upper one. Its equations are those of the polygon KN, NP, PC', C'K of §1. Let D be the depth
-/// with both threads straight. The lower thread is slack if height >= D, the upper one if height <=
-/// D - distance; the plummet is then a conical pendulum on the other. Its position is the point
-/// within reach of both threads with the largest depth + radius^2/(2 height), which is unique.
-/// Accuracy: 3 ulp; a depth or tension that is a small difference of two terms has an error of
-/// 1e-29 of the larger one. Also throws InvalidArgument unless the three lengths form a triangle.
+/// upper one. §1. Let D be the depth with both threads straight. The lower thread is slack if
+/// height >= D, the upper one if height <= D - distance; the plummet is then a conical pendulum on
+/// the other. Accuracy: 3 ulp; a depth or tension that is a small difference of two terms has an
+/// error of 1e-29 of the larger one. Also throws InvalidArgument unless the three lengths form a
+/// triangle.
 template <Real T>
 [[nodiscard]] HeldPlummet<T> held_plummet(const T& upper_thread, const T& lower_thread,
                                           const T& distance, const T& height);
 
-/// Resistance of the air over the weight, CA / CN, measured with the whirling machine. There the
-/// plummet's thread hangs from an arm of length `arm`. It is adjusted until the arm is
+/// Resistance of the air over the weight, CA / CN, measured with the whirling machine: the arm is
 /// perpendicular to the vertical plane through the axis and the plummet. §1 (8). Accuracy: 0.5 ulp.
 template <Real T>
 [[nodiscard]] T air_resistance(const T& arm, const T& height) {
@@ -189,8 +185,8 @@ template <Real T>
     return arm / height;
 }
 
-/// Length of thread that the whirling machine needs for a circle of `radius`: sqrt(arm^2 + height^2
-/// + radius^2). Accuracy: 2 ulp.
+/// Thread that the whirling machine needs for a circle of `radius`: sqrt(arm^2 + height^2 +
+/// radius^2). Accuracy: 2 ulp.
 template <Real T>
 [[nodiscard]] T whirling_thread(const T& arm, const T& height, const T& radius) {
     using std::hypot;
@@ -214,12 +210,10 @@ struct CarriedInclinations {
     int count = 0;
 };
 
-/// All steady inclinations d between -pi/2 and pi/2 of a plummet whose support runs in a circle of
-/// radius b: lambda tan d = b + l sin d, §1 (9). One is always outwards. Two more are inwards if
-/// lambda < l and b^(2/3) <= l^(2/3) - lambda^(2/3); the steeper one is unstable, and the other may
-/// be. Accuracy: 4 ulp, times 1 / |1 - (cos d_meet / cos d)^3| near the inclination d_meet at which
-/// the inner two meet. Cost: 0.3 microseconds. Also throws InvalidArgument if the tangent of an
-/// inclination overflows.
+/// The steady inclinations d between -pi/2 and pi/2 of a plummet whose support runs in a circle of
+/// radius b: lambda tan d = b + l sin d, §1 (9). One is outwards. Two more are inwards if lambda <
+/// l and b^(2/3) <= l^(2/3) - lambda^(2/3). Accuracy: 4 ulp, times 1 / |1 - (cos d_meet / cos d)^3|
+/// near the inclination d_meet at which the inner two meet. Cost: 0.3 microseconds.
 template <Real T>
 [[nodiscard]] CarriedInclinations<T> carried_inclinations(const T& length, const T& height,
                                                           const T& radius);

@@ -28,12 +28,10 @@
 ///
 ///     const revchain::Cord clasped(1.8, {.weight = 0.177, .weights = {{1.2173, 2.94}}});
 ///
-/// Arc lengths are measured from the free end. `CordOptions` has the weight, the density (a power
-/// of the arc length, or a function of it), weights of particles on the cord, and a particle or a
-/// bob that turns at its end. `steady_shapes` and its results are declared in
+/// Arc lengths are measured from the free end. `CordOptions` has the weight, the density, particles
+/// on the cord, and a particle or a bob at its end. `steady_shapes` and its results are declared in
 /// finite/cord/continuous_chain.hpp, which needs no GSL. For a cord held at both ends see `Held`
-/// (held.hpp). Greenhill (1908) §4; closed forms in special/heavy_chain.hpp,
-/// special/tapered_chain.hpp and special/tip_mass.hpp.
+/// (held.hpp). Greenhill (1908) §4.
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// Whirl modes of a cord, slowest first. Mode k is at index k - first. For a cord held straight at
@@ -49,26 +47,21 @@ struct CordModes {
 
     Index size() const noexcept { return conical_height.size(); }
     ModeRange range() const { return {first, size()}; }
-    /// Offset of the mode at index j at arc length s, divided by that of the free end. For a cord
-    /// held at both ends it is divided by the largest offset, which is at the lowest vertical
-    /// point. Throws InvalidArgument for s not in 0 ... length. Cost: 0.1 to 2 microseconds for
-    /// each of many s; a single s costs more.
+    /// Offset of the mode at index j at arc length s, divided by that of the free end, or between
+    /// held ends by the largest offset. Throws InvalidArgument for s not in 0 ... length. Cost: 0.1
+    /// to 2 microseconds for each of many s.
     [[nodiscard]] double offset(Index j, double s) const;
     [[nodiscard]] Vector<double> offset(Index j, const Vector<double>& s) const;
-    /// d offset / ds, -1 / lambda at a free end without a bob; at a particle, above it. Throws and
-    /// costs as `offset`.
+    /// d offset / ds; at a particle, above it. Throws and costs as `offset`.
     [[nodiscard]] double slope(Index j, double s) const;
     [[nodiscard]] Vector<double> slope(Index j, const Vector<double>& s) const;
-    /// d offset / ds along the bob, minus its inclination. Throws InvalidArgument for a cord
-    /// without one.
+    /// d offset / ds along the bob. Throws InvalidArgument for a cord without one.
     [[nodiscard]] double bob_slope(Index j) const;
-    /// Arc lengths at which the mode at index j crosses the axis, ascending. Held ends, and where
-    /// the line of a bob crosses it, are not listed.
+    /// Arc lengths at which the mode at index j crosses the axis, ascending. Held ends are not
+    /// listed.
     [[nodiscard]] Vector<double> nodes(Index j) const;
-    /// Arc lengths at which the mode is vertical, ascending, one above each node: the part below
-    /// has its centre of gravity on the axis. With a bob another can lie below the lowest node.
-    /// Where the cord turns back at a particle, that is the place. Between held ends, one is below
-    /// each node and one below the upper end.
+    /// Arc lengths at which the mode is vertical, or turns back at a particle, ascending. Where a
+    /// hanging cord is vertical, the part below has its centre of gravity on the axis.
     [[nodiscard]] Vector<double> vertical_points(Index j) const;
     /// n = sqrt(g / lambda), rad/s.
     Vector<double> angular_speed(double gravity = conical_pendulum::standard_gravity) const;
@@ -76,7 +69,7 @@ struct CordModes {
     [[nodiscard]] Vector<double> period(double gravity = conical_pendulum::standard_gravity) const;
 };
 
-/// Selects modes of a cord, as `ModesOptions` does. There is one method.
+/// Selects modes of a cord, as `ModesOptions` does.
 struct CordModesOptions {
     Index first = 1;
     std::optional<Index> count{};
@@ -89,27 +82,24 @@ struct CordModesOptions {
 
 /// The modes chosen by `first` and `count` (absent: ten), or by a window that holds finitely many.
 ///
-/// Method and accuracy: closed forms are lambda_k = 4 L / j_{0,k}^2 for a uniform cord, to 3 ulp,
-/// and 4 (p + 1) L / j_{p,k}^2 for a density s^p, to 3 ulp. For a uniform cord with a tip weight
-/// they are zeros of a cross product of Bessel functions, to 2 ulp. All others use power series, to
-/// 4e-15 (tests/cpp/cord.cpp). `error_bound` has these figures; it was measured, for exponents from
-/// -0.99 to 100. For a density function that jumps or is less accurate it is 2e-15 plus twice
-/// `LineDensity::error` plus `rounding_at_jumps`. With particles or a bob it is larger by 3 ulp
-/// times the largest ratio of a relative change of the height to that of the place of a particle or
-/// of the support. As a rule it is then below 1e-14 (10,000 cords with weights up to 1e16 apart,
-/// tests/cpp/cord_particles.cpp). Offsets and slopes are within 1e-15 times the mode number of the
+/// Method and accuracy: closed forms are lambda_k = 4 L / j_{0,k}^2 for a uniform cord and 4 (p +
+/// 1) L / j_{p,k}^2 for a density s^p, to 3 ulp, and zeros of a cross product of Bessel functions
+/// for a uniform cord with a tip weight, to 2 ulp. Others use power series, to 4e-15
+/// (tests/cpp/cord.cpp). `error_bound` has these figures, measured for exponents from -0.99 to 100.
+/// It is larger for a density function that jumps; with particles or a bob it is mostly below 1e-14
+/// (tests/cpp/cord_particles.cpp). Offsets and slopes are within 1e-15 times the mode number of the
 /// largest one, with series within 1e-14 for the first 7 modes, with particles or a bob within
 /// 1e-11. Cost: closed forms take 0.04 to 8 microseconds a mode; power series mostly take
 /// 0.2 to 2 ms for each mode up to the last one requested. Throws InvalidArgument as `modes` of a
-/// chain, for `all_modes` (there are infinitely many), and with series for modes above number 1e5,
-/// a density too rough or a tip too heavy.
+/// chain, for `all_modes`, and with series for modes above number 1e5, a density too rough or a tip
+/// too heavy.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordModes modes(const Cord& cord, const CordModesOptions& options = {});
 
 /// The number of modes slower than a speed. Heights within `CordModes::error_bound` of the given
-/// one may be counted on either side. Cost: that of some modes, with series one path. Throws
-/// InvalidArgument unless exactly one of height and speed is given, positive and finite, for more
-/// than 1e15 modes, and with series for a length above 1e6 heights.
+/// one may be counted on either side. Cost: that of some modes. Throws InvalidArgument unless
+/// exactly one of height and speed is given, for more than 1e15 modes, and with series for a length
+/// above 1e6 heights.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] Index count_modes(const Cord& cord, const CountOptions<double>& options);
 
@@ -117,10 +107,10 @@ REVCHAIN_DECLARE_ANALYTIC
 /// many are slower than a speed. Without gravity a height is `CordModesOptions::gravity` over the
 /// square of the speed: the modes are those of a string, n = k pi sqrt(tension / (mass length)).
 ///
-/// Method: zeros of a cross product of Bessel functions (special/taut_cord.hpp). Accuracy: 2 ulp
-/// (tests/cpp/cord.cpp); offsets within 1e-15 times the mode number of the largest one. Cost: as
-/// with a tip weight. Throws InvalidArgument for a span, with gravity for a tension that does not
-/// exceed the weight (the cord would not be straight), and as for a hanging cord.
+/// Method: zeros of a cross product of Bessel functions. Accuracy: 2 ulp (tests/cpp/cord.cpp);
+/// offsets within 1e-15 times the mode number of the largest one. Cost: as with a tip weight.
+/// Throws InvalidArgument for a span, with gravity for a tension that does not exceed the weight,
+/// and as for a hanging cord.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordModes modes(const Held<Cord>& held, const CordModesOptions& options = {});
 REVCHAIN_DECLARE_ANALYTIC
@@ -142,28 +132,25 @@ struct CordSensitivity {
 /// Derivatives of the heights of the modes with respect to the data of their cord. A change dV of
 /// the weight below a point, tip included, changes
 ///     lambda = integral of y^2 dV / I   by   - integral of dV y' (2 y + lambda y') / I,
-/// where I = integral of V y'^2. Heights are proportional to the length; otherwise they depend only
-/// on ratios of weights (and tension). Accuracy: 1e-12 of the height over the datum; 2e-9, as far
-/// as differences tell, for a power with a tip (tests/python/test_held_cord.py). Cost: that of some
-/// hundred offsets and slopes a mode. Throws InvalidArgument for a cord with a bob.
+/// where I = integral of V y'^2. Accuracy: 1e-12 of the height over the datum; 2e-9 for a power
+/// with a tip (tests/python/test_held_cord.py). Cost: that of some hundred offsets and slopes a
+/// mode. Throws InvalidArgument for a cord with a bob.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordSensitivity sensitivity(const CordModes& modes);
 
-/// The branch of steady shapes that leaves the vertical at a mode, followed through every fold
-/// until it first reaches the conical height or speed given.
+/// The branch of steady shapes that leaves the vertical at a mode, followed through folds to the
+/// conical height or speed given.
 ///
-/// Method: arc continuation in the plane of the free end's inclination and the conical height,
-/// along the curve on which crossing `mode` of the cord's path is at the support. Each step is
-/// checked, not proved (finite::BranchLineWalk). No folds exist where a theorem counts the shapes.
-/// Accuracy: points within 1e-12; heights of folds within 1e-9, relative
-/// (tests/cpp/cord_branches.cpp). Cost: a few paths a point (`steady_shapes`).
-/// Throws InvalidArgument for a bob, a mode number below 1 or above 1e5, for a height not below
-/// that of the mode, for a length above 1e6 heights, and unless exactly one of height and speed is
-/// given, positive and finite.
+/// Method: arc continuation in the free end's inclination and the conical height. Each step is
+/// checked, not proved (finite::BranchLineWalk). Accuracy: points within 1e-12; heights of folds
+/// within 1e-9, relative (tests/cpp/cord_branches.cpp). Cost: a few paths a point
+/// (`steady_shapes`).
+/// Throws InvalidArgument for a bob, a mode number below 1 or above 1e5, a height not below that of
+/// the mode, a length above 1e6 heights, and unless exactly one of height and speed is given.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordBranch branch(const Cord& cord, const BranchOptions& options);
 
-/// Sets how far to follow all branches of a cord. Give either `min_conical_height` or
+/// Sets how far to follow branches of a cord. Give either `min_conical_height` or
 /// `max_angular_speed`.
 struct CordDiagramOptions {
     std::optional<double> min_conical_height{};
@@ -174,16 +161,14 @@ struct CordDiagramOptions {
     double gravity = conical_pendulum::standard_gravity;
 };
 
-/// All branches down to the conical height or speed given: of the modes, and isolated ones.
+/// The branches of the modes down to the conical height or speed given, and isolated ones found.
 ///
 /// Method: `branch` from every mode. If no theorem counts the shapes, lists of shapes
 /// (`steady_shapes`) at `lists` heights are compared with the branches. A shape that no branch
 /// passes lies on an isolated branch, which is followed to its end. `complete` is true if all
-/// branches reach the end and a theorem counts the shapes (finite/cord/continuous_chain.hpp): those
-/// of a uniform cord, of a power s^p without a tip or with p below 0, and of every cord with at
-/// most one slower mode.
+/// branches reach the end and a theorem counts the shapes (finite/cord/continuous_chain.hpp).
 /// Accuracy: as `branch`. Throws InvalidArgument for a bob, a length above 1e6 heights, `lists`
-/// below 1, and unless exactly one of height and speed is given, positive and finite.
+/// below 1, and unless exactly one of height and speed is given.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordBranches branches(const Cord& cord, const CordDiagramOptions& options);
 
@@ -192,35 +177,29 @@ REVCHAIN_DECLARE_ANALYTIC
 ///
 /// Accuracy: the shape is within its `error_bound`, an estimate, of the exact one at its conical
 /// height. That height is the given one, or within 1e-12 of the one at which the number is reached
-/// (tests/cpp/cord_branches.cpp). It is less accurate for a tip radius that hardly changes with the
-/// height. Cost: that of the branch up to there. Throws as for a chain, and
+/// (tests/cpp/cord_branches.cpp), less accurate where the number hardly changes with the height.
+/// Cost: that of the branch up to there. Throws as for a chain, and
 /// for a bob.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordShape steady_shape(const Cord& cord, const OnBranchOptions& options);
 
-/// All shapes on the branch at which the number has its given value, at most `max_shapes`. The list
+/// The shapes on the branch at which the number has its given value, at most `max_shapes`. The list
 /// is empty if the number is not reached. Otherwise as `steady_shape`.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordShapesOnBranch shapes_on_branch(const Cord& cord, const OnBranchOptions& options,
                                                   std::size_t max_shapes = all_shapes);
 
-/// The stability of a steady shape of a cord that hangs, or is held at both ends, which are fixed.
+/// The stability of a steady shape of a cord that hangs, or is held at both ends.
 ///
-/// Method: Galerkin's, with polynomials on panels (finite::DisturbedCord), twice: with 8 and with
-/// 10 nodes a panel. `exponents` are those of infinitely many that are smaller than the first on
-/// which the two results differ by more than 1e-6 of its size. They are sorted by imaginary part,
-/// the most negative first. `margin` covers the difference of the two growth rates. If the numbers
-/// of negative directions differ, or the growth rate is near `margin`, the verdict is `undecided`.
-/// Only finitely many directions have negative energy, and only as many motions can grow, so the
-/// omitted motions of high frequency do not grow.
-/// `internal_damping` is NaN: friction in bending needs a stiffness, which a cord does not have.
-/// `external_damping` is for the drag of still air on a piece of cord over its length and velocity,
-/// as for a chain. Accuracy: exponents to 1e-8 (measured against the modes, 1e-9 below a critical
-/// speed; with a tip to 2e-9 against chains with Richardson's extrapolation:
-/// tests/python/test_cord_branches.py). Exponents of N links differ from them as 1/N^2
-/// (tests/cpp/cord_branches.cpp), or as 1/N if a point mass is not at a pin. Cost: that of a chain
-/// with 10 links a panel; each half wave has two panels or more. Throws InvalidArgument if the
-/// lengths differ.
+/// Method: Galerkin's, with polynomials on panels, once with 8 and once with 10 nodes a panel.
+/// `exponents` are those of infinitely many that are smaller than the first on which the two
+/// results differ by more than 1e-6 of its size. `margin` covers the difference of the two growth
+/// rates; near it the verdict is `undecided`. Only finitely many directions have negative energy,
+/// so the omitted motions of high frequency do not grow. `internal_damping` is NaN: a cord has no
+/// stiffness in bending. `external_damping` is as for a chain. Accuracy: exponents to 1e-8
+/// (measured against the modes, 1e-9 below a critical speed; with a tip to 2e-9 against long
+/// chains: tests/python/test_cord_branches.py). Cost: that of a chain with 10 links a panel. Throws
+/// InvalidArgument if the lengths differ.
 REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Cord& cord, const CordShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);
@@ -258,16 +237,13 @@ struct CordSwing {
 
 /// Small oscillations of a cord in a plane after release, superposed from the modes of `modes`.
 ///
-/// `error_estimate` is twice the largest contribution of modes k + 1 ... 2 k and of all higher
-/// modes, extrapolated from the decrease between modes k/2 ... k and k + 1 ... 2 k. After a kink in
-/// a uniform cord without a tip, convergence at the free end is slow, as k^-1/2: waves meet there.
-/// With density s^p it is about k^(p-1/2), which grows for p > 1/2.
+/// `error_estimate` is extrapolated from the contributions of modes up to 2 k. After a kink in a
+/// uniform cord without a tip, convergence at the free end is slow, as k^-1/2.
 /// Accuracy, measured against long chains (tests/cpp/cord_branches.cpp): coefficients to 1e-13 of
 /// the largest, angles to rounding, 1e-15 times the number of swings. Cost: offsets of 2 k modes at
 /// several hundred arc lengths.
-/// Throws InvalidArgument for a bob, unless starts are finite, continuous, of the length of
-/// `arc_length` and 0 at the support, for arc lengths out of order, a count below 1 or above 1e4,
-/// gravity not positive and times not finite.
+/// Throws InvalidArgument for a bob, unless starts are continuous, of the length of `arc_length`
+/// and 0 at the support, for arc lengths out of order, and a count above 1e4.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordSwing swing(const Cord& cord, const CordSwingOptions& options);
 

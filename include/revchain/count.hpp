@@ -28,7 +28,7 @@ struct SpeedWindow {
     T high{};
 };
 
-/// The value of a count of modes that means all.
+/// As a count of modes it means all.
 inline constexpr Index all_modes = std::numeric_limits<Index>::max();
 
 /// The modes number `first` (from 1, slowest first) to `first + count - 1`.
@@ -94,25 +94,24 @@ class LazyCounter;
 
 /// Counts the modes of one chain above a conical height or below a speed, without computing any
 /// mode. The chain is assembled once, and each count is one to three O(N) passes. The count is
-/// proved: in T (10 ns per link in double) or, more slowly, in `Wide<T>`. That is used where
-/// rounding leaves a doubt, and for a speed whose height is not exact in T. A conical height within
-/// 2^20 roundings of `Wide<T>` (4e-25 in double) of the given one may count as equal to it.
-/// Throws InvalidArgument if no count is proved (weights and lengths many powers of ten apart).
+/// proved: in T (10 ns per link in double) or, where rounding leaves a doubt, in `Wide<T>`. A
+/// conical height within 2^20 roundings of `Wide<T>` (4e-25 in double) of the given one may count
+/// as equal to it.
+/// Throws InvalidArgument if no count is proved.
 template <Real T>
 class ModeCounter {
    public:
     explicit ModeCounter(const Chain<T>& chain)
         : mode_count_(chain.mode_count()), pencils_(chain) {}
 
-    /// The number of conical heights above `height`. Throws InvalidArgument unless it is positive
-    /// and finite.
+    /// The number of conical heights above `height`.
     [[nodiscard]] Index above_height(const T& height) const {
         detail::require_positive("count_modes", "conical height", height);
         return above(Wide<T>(height), height, "count_modes: conical height", height);
     }
 
     /// The number of whirl speeds below `angular_speed`: conical heights are compared with g / n^2
-    /// in `Wide<T>`. Throws InvalidArgument unless both are positive and finite.
+    /// in `Wide<T>`.
     [[nodiscard]] Index below_speed(const T& angular_speed, const T& gravity) const {
         detail::require_positive("count_modes", "angular speed", angular_speed);
         detail::require_positive("count_modes", "gravity", gravity);
@@ -128,8 +127,7 @@ class ModeCounter {
                                     [&](const T& height) { return above_height(height); });
     }
 
-    /// The modes whose speeds lie in the window. Throws InvalidArgument unless 0 <= low < high and
-    /// gravity is positive and finite.
+    /// The modes whose speeds lie in the window. Throws InvalidArgument unless 0 <= low < high.
     [[nodiscard]] ModeRange within(const SpeedWindow<T>& window, const T& gravity) const {
         detail::require_positive("modes", "gravity", gravity);
         return detail::modes_within(window, mode_count_,
@@ -158,8 +156,7 @@ struct CountOptions {
 
 /// The number of modes slower than a speed, proved; Greenhill (1908) §8 (21). Accuracy and ties:
 /// see `ModeCounter`, which is faster for many counts of one chain. Cost: 40 ns a link. Throws
-/// InvalidArgument unless exactly one of height and speed is given, positive and finite, and as
-/// `ModeCounter`.
+/// InvalidArgument unless exactly one of height and speed is given, positive and finite.
 template <Real T>
 [[nodiscard]] Index count_modes(const Chain<T>& chain, const CountOptions<T>& options) {
     detail::require_one_speed("count_modes", options);

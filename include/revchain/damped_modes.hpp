@@ -44,8 +44,8 @@ struct DampedModes {
     Status status = Status::success;       ///< `tolerance_not_met`: a bound is not proved
 
     Index size() const noexcept { return exponent.size(); }
-    /// These return the speed of the oscillation (0: the motion only decays or grows), -Re s / |s|,
-    /// and the time in which it decays by the factor e (negative: it grows).
+    /// These return the speed of the oscillation, -Re s / |s|, and the time in which it decays by
+    /// the factor e (negative: it grows).
     double damped_frequency(Index j) const { return std::abs(exponent[j].imag()); }
     double damping_ratio(Index j) const { return -exponent[j].real() / std::abs(exponent[j]); }
     double decay_time(Index j) const { return -1 / exponent[j].real(); }
@@ -56,15 +56,14 @@ struct DampedModes {
 /// between links, that of the support on its velocity, linear drag on the velocity of each link.
 ///
 /// Method: Eigen's eigenvalues of the first-order form are starts. Each is refined with a symmetric
-/// Rayleigh quotient in two words, O(N). All vectors together, which are orthogonal with respect to
-/// the first-order form, give discs that hold one exponent each (Gershgorin): proved bounds.
-/// Without inertia at a pin (or with less than 1e-12 of what moves with it), and for exponents that
-/// cannot be told apart (critical damping), the bound is infinite and `error_estimate` has the size
-/// of the last correction. Accuracy: every exponent is within `error_bound`, which is usually below
-/// 1e-15 (tests/cpp/damped_modes.cpp).
+/// Rayleigh quotient in two words, O(N). The vectors together give discs that hold one exponent
+/// each (Gershgorin): proved bounds. Without inertia at a pin (or with less than 1e-12 of what
+/// moves with it), and for exponents that cannot be told apart (critical damping), the bound is
+/// infinite and `error_estimate` takes its place. Accuracy: every exponent is within `error_bound`,
+/// which is usually below 1e-15 (tests/cpp/damped_modes.cpp).
 /// Cost O(N^3).
-/// Throws InvalidArgument for `first` or `count` below 1, gravity not positive, more than 1000
-/// links, dashpots in a fluid that turns, and numbers too far apart (weights by more than 1e123).
+/// Throws InvalidArgument for numbers out of range, more than 1000 links, dashpots in a fluid that
+/// turns, and weights more than 1e123 apart.
 REVCHAIN_DECLARE
 [[nodiscard]] DampedModes damped_modes(const Rig& rig, const DampedModesOptions& options = {});
 

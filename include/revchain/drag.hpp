@@ -74,30 +74,25 @@ struct DragShape {
     int steps = 0;  ///< of the continuation
 };
 
-/// Returns the steady shape of a rig whose support is carried round, with drag of still air on its
-/// links. The joints are ball joints: they pass on no torque. The moment of the drag about the axis
-/// is balanced by the force on the support, so that the support must be off the axis.
+/// The steady shape of a rig whose support is carried round, with drag of still air on its links.
+/// The force on the support balances the moment of the drag about the axis, so the support must be
+/// off the axis.
 ///
 /// Method: continuation along the arc. From rest, the square of the speed grows from 0, and the
-/// drag with it (momenta act in full from the start). With `half_waves`, the shape of
-/// `steady_shapes` whose free end is farthest out is followed while a factor of the drag grows from
-/// 0 to 1. Unknowns are the directions of the links. Newton's method has the exact derivative,
-/// eliminated link by link in 2 x 2 blocks, O(N); every step balances the forces in two words. Drag
-/// is integrated along each link by Gauss's rule on parts that shrink towards the slowest point.
-/// Folds on the way are followed round. If the way then returns to its beginning, takes 3000 steps
-/// or cannot be continued, the status is `fold` and the shape that at the first fold. Without a
-/// fold it is `stalled`. It is not proved that there is no other shape. `error_estimate` is the
-/// change by a rule of more points, and rounding. Accuracy measured (tests/python/test_drag.py):
-/// one link within 2e-15 rad of 40 digits; of 10,000 random chains 99 % within 1e-14 rad, all
-/// within 3e-13 rad, by a step of Newton's method in other coordinates. A support on a spring
-/// yields alike in every horizontal direction. Dashpots at pins have no part in a rigid figure.
+/// drag with it. With `half_waves`, the shape of `steady_shapes` whose free end is farthest out is
+/// followed while a factor of the drag grows from 0 to 1. Newton's method for the directions of the
+/// links has the exact derivative. Drag is integrated along each link by Gauss's rule. Folds on the
+/// way are followed round. If the way then leads no further, the status is `fold` and the shape
+/// that at the first fold; without a fold it is `stalled`. Other shapes may exist. `error_estimate`
+/// is the change by a rule of more points, and rounding. Accuracy measured
+/// (tests/python/test_drag.py): one link within 2e-15 rad of 40 digits; of 10,000 random chains 99
+/// % within 1e-14 rad, all within 3e-13 rad, by a step of Newton's method in other coordinates.
 /// Drag of the arm is not included. Source of the drag across a cylinder: Hoerner, Fluid-Dynamic
-/// Drag (1965), 3-11 (cross-flow principle); of the elimination: that of finite::balance. Cost:
-/// O(N) for each step of the continuation (`DragShape::steps`). Throws InvalidArgument for a speed
-/// of 0, a support on the axis, a fluid that turns, springs at pins, linear drag (`Rigging::drag`),
-/// a dashpot at the support, a trolley that rolls freely, lists of another length, numbers negative
-/// or not finite, gravity not positive, weights more than 1e123 apart; with `half_waves` also if
-/// there is no such shape, and as `steady_shapes`.
+/// Drag (1965), 3-11 (cross-flow principle). Cost: O(N) for each step of the continuation
+/// (`DragShape::steps`). Throws InvalidArgument for a speed of 0, a support on the axis, a fluid
+/// that turns, springs at pins, linear drag (`Rigging::drag`), a dashpot at the support, a trolley
+/// that rolls freely, lists of another length, numbers out of range and weights more than 1e123
+/// apart; with `half_waves` also if there is no such shape, and as `steady_shapes`.
 REVCHAIN_DECLARE
 [[nodiscard]] DragShape drag_shape(const Rig& rig, const Drag& drag,
                                    const DragShapeOptions& options);

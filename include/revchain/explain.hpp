@@ -43,13 +43,11 @@ struct ExplainOptions {
 
 /// Returns the method that `modes` of a chain, with all of methods.hpp, tries first. No mode is
 /// computed. If that method cannot prove its bound for this chain, `modes` takes the next one;
-/// `Modes::method` names the method used. Each method meets its error bound, but not for heights
-/// below 2e-308; bench/models.cpp compares predicted with measured times. Throws as `modes`.
+/// `Modes::method` names the method used. Throws as `modes`.
 REVCHAIN_DECLARE
 [[nodiscard]] Explanation explain(const Chain<double>& chain, const ExplainOptions& options = {});
 
-/// Deleted: for rigs, cords and held systems there is no choice of methods by cost. Call `modes`
-/// and read `RigModes::method`, `CordModes::method` or `Modes::method`.
+/// Deleted: for rigs, cords and held systems there is no choice of methods by cost.
 Explanation explain(const Rig& rig, const ExplainOptions& options = {}) = delete;
 Explanation explain(const Cord& cord, const ExplainOptions& options = {}) = delete;
 template <class System>

@@ -9,8 +9,7 @@
 #include "revchain/numeric/progress.hpp"
 #include "revchain/rig.hpp"
 
-/// Forced motion of small amplitude of a rig, also with dashpots, springs at pins or a trolley; not
-/// with dashpots in a fluid that turns.
+/// Forced motion of small amplitude of a rig, also with dashpots, springs at pins or a trolley.
 ///
 ///     const revchain::Chain<double> chain({revchain::plummet(9.81, 1.0)});
 ///     const revchain::Rig rig(chain, {.pins = {{.damping = 0.2}}});  // N m s/rad
@@ -20,8 +19,8 @@
 ///     std::arg(r.offset(0, 0));     // -1.50611 rad: how far it is behind its support
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// The amplitude that drives the rig: one of `radius`, `acceleration` and `force`. If none is given,
-/// it is the radius of the rig's own support. The drive goes to and fro as cos(n t), or on a circle
+/// The amplitude that drives the rig: one of `radius`, `acceleration` and `force`. Without one it
+/// is the radius of the rig's own support. The drive goes to and fro as cos(n t), or on a circle
 /// with the speed n if the rig has momentum.
 struct ForcedMotionOptions {
     std::vector<double> angular_speed{};  ///< n, rad/s, positive; with momentum of either sign
@@ -41,21 +40,19 @@ struct ForcedMotion {
     /// Slower modes of the rig without its dashpots; a support that is moved itself is then firm.
     Vector<Index> modes_below;
     std::vector<char> resonant;                  ///< whether it cannot be told from a resonance
-    Vector<std::complex<double>> support_force;  ///< pull on the support; on the moved end of a spring
+    Vector<std::complex<double>> support_force;  ///< pull on the support, or a spring's moved end
 };
 
 /// Forced motion, after free motions have died away: Q(i n) q = load with the matrices of
 /// `damped_modes`. The support's own dashpot acts on its velocity over the ground.
 ///
-/// Method: elimination of the links' rotations, one after the other, in complex double words, O(N),
-/// corrected twice. The estimate adds the second correction, the effect of a relative change of
-/// 2^-90 of the speed, and half an ulp. Accuracy measured for random rigs
-/// (tests/cpp/forced_motion.cpp): 1.6e-16 of the largest offset, and at most ten times
-/// `error_estimate`. Cost: 2 microseconds for each link and speed.
+/// Method: elimination of the links' rotations, one after the other, in complex double words,
+/// corrected twice. Accuracy measured for random rigs (tests/cpp/forced_motion.cpp): 1.6e-16 of the
+/// largest offset, and at most ten times `error_estimate`. Cost: 2 microseconds for each link and
+/// speed.
 /// Throws InvalidArgument unless one of radius, acceleration and force is given or the rig's own
-/// support has a radius, all are finite, gravity is positive, speeds are not 0 and positive without
-/// momentum; for a force on a firm support, for dashpots in a fluid that turns, and for a speed or
-/// drive too far from the rig's own units.
+/// support has a radius, for speeds of 0, negative speeds without momentum, a force on a firm
+/// support, dashpots in a fluid that turns, and numbers out of range.
 REVCHAIN_DECLARE
 [[nodiscard]] ForcedMotion forced_motion(const Rig& rig, const ForcedMotionOptions& options);
 

@@ -50,15 +50,14 @@ struct GovernorState {
 /// function of time.
 ///
 /// Method: with tau = tan(theta/2), 4 tau'^2 = e + 2 b tau^2 + f tau^4, where e and f are the
-/// squares of theta' at the bottom and at the top. kappa and kappa' follow from e, f and b without
-/// a difference, also near the separatrices. Accuracy: 1e-13 of the greatest |theta| and of t times
-/// the greatest |theta'|; theta' likewise. It is less if e or f is lost in rounding: the start
-/// gives them to 1e-16 (theta'^2 + n^2 + |g/l|). Pendulum lengths near the conical height are
-/// resolved to their last digit. Cost: 0.4 microseconds to construct, 60 ns a time.
+/// squares of theta' at the bottom and at the top. Accuracy: 1e-13 of the greatest |theta| and of t
+/// times the greatest |theta'|; theta' likewise. It is less if e or f is lost in rounding: the
+/// start gives them to 1e-16 (theta'^2 + n^2 + |g/l|). Cost: 0.4 microseconds to construct, 60 ns a
+/// time.
 class GovernorMotion {
    public:
-    /// Throws InvalidArgument for numbers that are not finite, a pendulum length that is not
-    /// positive, an axial inertia outside 0 ... 1, and data so far apart that a modulus is lost.
+    /// Throws InvalidArgument for numbers out of range, and data so far apart that a modulus is
+    /// lost.
     explicit GovernorMotion(const Governor& given);
 
     GovernorRegime regime() const noexcept { return regime_; }
@@ -67,8 +66,7 @@ class GovernorMotion {
     /// The range of angles, whole turns included; -infinity and infinity for revolutions.
     double least_angle() const noexcept { return least_; }
     double greatest_angle() const noexcept { return greatest_; }
-    /// theta'^2 that the energy gives at the bottom and at the top; negative if it is too small for
-    /// that point.
+    /// theta'^2 at the bottom and at the top by the energy; negative if that point is not reached.
     double energy_at_bottom() const noexcept { return bottom_; }
     double energy_at_top() const noexcept { return top_; }
     EllipticModulus modulus() const { return functions_.modulus(); }

@@ -15,7 +15,7 @@
 ///     revchain::plane_rotation(string, 20.0);    // 0.00560363 rad from link to link
 ///
 /// Links are jointed in a row under one tension. Their weight counts only as inertia; offsets are
-/// small. It is a model of light in a magnetised body. Units: any consistent set, angles in rad.
+/// small. Units: any consistent set, angles in rad.
 ///
 /// In a circular wave every pin runs round the line with the speed n, an angle theta behind its
 /// neighbour. n is positive in the direction of rotation of a wheel with positive momentum:
@@ -38,7 +38,7 @@ struct GyrostaticString {
 };
 
 /// Propagation of a circular wave: exp(i m phase) exp(-m attenuation) at link m. A wave that
-/// propagates has attenuation 0. Otherwise the phase is 0, or pi if neighbours move oppositely.
+/// propagates has attenuation 0; otherwise the phase is 0 or pi.
 template <Real T>
 struct LinkPhase {
     T phase{};        ///< 0 ... pi
@@ -126,13 +126,11 @@ template <Real T>
                                   : std::array<T, 2>{faster, -slower};
 }
 
-/// Angle by which the plane of a vibration to and fro turns from link to link. It is half the
-/// difference of the phases of the two circular parts, positive in the direction of rotation of a
-/// wheel with positive momentum. It is the same for waves in both directions, so a reflected wave
-/// is turned twice. NaN if one of the parts does not propagate. Accuracy: 8 ulp, also for a tiny
-/// momentum, divided by the cosine of half the larger phase where that is small, and multiplied by
-/// the cancellation as for `link_phase`. Also throws InvalidArgument for a speed that is not
-/// positive.
+/// Angle by which the plane of a vibration to and fro turns from link to link: half the difference
+/// of the phases of the two circular parts, positive in the direction of rotation of a wheel with
+/// positive momentum. NaN if one of the parts does not propagate. Accuracy: 8 ulp, divided by the
+/// cosine of half the larger phase where that is small, and multiplied by the cancellation as for
+/// `link_phase`. Also throws InvalidArgument for a speed that is not positive.
 template <Real T>
 [[nodiscard]] T plane_rotation(const GyrostaticString<T>& string, const T& angular_speed) {
     using std::asin;

@@ -50,11 +50,10 @@ struct HeldBy {
 /// stiff in all directions across the axis, or carry it round the axis at a radius. Both ends lie
 /// in one plane with the axis.
 ///
-/// Throws InvalidArgument unless exactly one of span and tension is given, positive and finite, for
-/// a span not less than the length, and for firm ends as far apart as the length. Also throws for
-/// numbers not finite (but for the infinite stiffness of a firm end), a stiffness not positive, a
-/// carriage weight that is negative or has no spring, a dashpot at an end, a radius together with a
-/// tension, springs or radii for a cord, and a cord that is not uniform or has a tip weight.
+/// Throws InvalidArgument unless exactly one of span and tension is given, for a span not less than
+/// the length, a carriage weight without a spring, a dashpot at an end, a radius together with a
+/// tension, springs or radii for a cord, a cord that is not uniform or has a tip weight, and
+/// numbers out of range.
 template <class System>
 class Held {
     static_assert(std::is_same_v<System, Chain<double>> || std::is_same_v<System, Cord>);
@@ -101,48 +100,40 @@ struct HeldCordShapesOptions {
 };
 
 /// Steady shapes at finite amplitude with 1 to `max_half_waves` half waves, sorted by half waves.
-/// Half waves are counted about the line between the rest positions of the two ends; ends on
-/// springs count as pins. In every shape the inclination of each link is stable under the loads on
-/// it: a thread points along its pull. A rod may be in compression at a pin. Other shapes are not
+/// They are counted about the line between the rest positions of the two ends. The inclination of
+/// each link is stable under the loads on it: a thread points along its pull. Other shapes are not
 /// searched.
 ///
 /// For each number of half waves the shape that continuation from the nearly straight chain without
-/// gravity reaches, if any, comes first. The ends approach, then move to their radii and springs,
-/// then gravity grows. At a given tension it is followed by all other shapes on that branch with
-/// this tension at the upper end. Other shapes of a chain come last among those with as many half
-/// waves.
+/// gravity reaches, if any, comes first. At a given tension the other shapes on that branch with
+/// this tension at the upper end follow. Other shapes of a chain come last among those with as many
+/// half waves.
 ///
 /// `missing` lists the numbers of half waves with which none was found. `complete` is true if it is
-/// proved that there is no other such shape with 1 to `max_half_waves` half waves in the plane of
-/// the axis and the ends; others are not searched. For a cord this is possible only at a span
-/// without gravity. Otherwise, for a chain and with `prove`, `undecided` has the ranges of the
-/// lowest link's inclination (rad) in which other shapes may exist in that plane. If both radii
-/// differ from 0, the arms can twist the chain out of it, and `complete` is false; otherwise a
-/// shape out of it has a link that could lean to any side under no load.
+/// proved that there is no other such shape in the plane of the axis and the ends. For a cord this
+/// needs a span without gravity. Otherwise, for a chain and with `prove`, `undecided` has the
+/// ranges of the lowest link's inclination (rad) in which other shapes may exist in that plane. If
+/// both radii differ from 0, the arms can twist the chain out of it, and `complete` is false.
 ///
 /// Forces in `HeldShape` and `HeldCordShape` are multiplied by the conical height. Divide by
 /// `conical_height` for the unit of the weights; without gravity multiply by the square of the
 /// speed for newtons. A branch has a narrow range of tensions: for a skipping rope with k half
-/// waves, 1/(pi k)^2 to 1/(8 k^2) of mass times length times speed squared. With gravity, unless
-/// the speed is slow, the tension has a maximum along the branch: two spans have the same tension.
+/// waves, 1/(pi k)^2 to 1/(8 k^2) of mass times length times speed squared.
 ///
 /// Method for chains: the unknowns are the two forces at the lower end in the upward sweep of
-/// Greenhill (1908) §8 (21), with exact derivatives. Arc continuation in double is followed by
-/// Newton's method in double-double; Krawczyk's test in intervals of double-double proves the
-/// bound. Completeness is proved by splitting all pulls along the lowest link and all its
-/// inclinations until each part has exactly one shape or none (finite/held/search.hpp). For cords:
-/// power series of degree 24, which without gravity give y = b sn(K x/a), §5. For 3, 6 and 9 links
-/// with l <= a and one half wave, 99 of 108 lists are proved complete (tests/cpp/held.cpp). Fewer
-/// are with l > a, with massless links between others, and with two or more half waves. If several
-/// links are slack at once, as beads can be without gravity, a small range stays undecided.
-/// Accuracy: inclinations of chains are correctly rounded up to an error of 1e-20, with a bound
-/// that is mostly proved (tests/cpp/held.cpp). Positions on cords are within 1e-13 of the length,
-/// with an estimated bound. A given tension is met to 1e-15 for cords, to 1e-12 (rarely only 1e-10)
-/// for chains, relative. Cost: about 100 sweeps of O(N), or 100 paths of a cord; for a tension some
-/// thousand. The proof of completeness of 9 rods at half their length takes 0.1 s; `budget` 0 omits
-/// it.
-/// Throws InvalidArgument for a speed missing, not positive or not finite, g/n^2 outside the range
-/// of double, `max_half_waves` below 1, and weights more than 1e123 apart.
+/// Greenhill (1908) §8 (21). Arc continuation in double is followed by Newton's method in
+/// double-double; Krawczyk's test proves the bound. Completeness is proved by splitting the pulls
+/// along the lowest link and its inclinations until each part has exactly one shape or none
+/// (finite/held/search.hpp). For cords: power series, which without gravity give y = b sn(K x/a),
+/// §5. For 3, 6 and 9 links with l <= a and one half wave, 99 of 108 lists are proved complete
+/// (tests/cpp/held.cpp), fewer with l > a or more half waves. Accuracy: inclinations of chains are
+/// correctly rounded up to an error of 1e-20, with a bound that is mostly proved
+/// (tests/cpp/held.cpp). Positions on cords are within 1e-13 of the length, with an estimated
+/// bound. A given tension is met to 1e-15 for cords, to 1e-12 (rarely only 1e-10) for chains,
+/// relative. Cost: about 100 sweeps of O(N), or 100 paths of a cord; for a tension some thousand.
+/// The proof of completeness of 9 rods at half their length takes 0.1 s; `budget` 0 omits it.
+/// Throws InvalidArgument for a speed missing or out of range, `max_half_waves` below 1, and
+/// weights more than 1e123 apart.
 REVCHAIN_DECLARE
 [[nodiscard]] HeldShapes steady_shapes(const Held<Chain<double>>& held,
                                        const HeldShapesOptions& options = {});
@@ -150,8 +141,7 @@ REVCHAIN_DECLARE
 [[nodiscard]] HeldCordShapes steady_shapes(const Held<Cord>& held,
                                            const HeldCordShapesOptions& options = {});
 
-/// Selects modes of a chain held straight under a tension, as `ModesOptions` does. There is one
-/// method.
+/// Selects modes of a chain held straight under a tension, as `ModesOptions` does.
 struct HeldModesOptions {
     Index first = 1;
     std::optional<Index> count{};
@@ -166,29 +156,23 @@ struct HeldModesOptions {
 };
 
 /// Whirl modes of small amplitude of the straight chain under a tension, slowest first, chosen as
-/// for a hanging chain. At these heights shapes of finite amplitude under the same tension branch
-/// off. N links have N - 1 modes, one more for each end on a spring, less one for each independent
-/// motion of the pins that moves no mass. In `shapes` firm ends are 0, the largest in size is 1,
-/// and the lowest pin that moves has a positive offset; nodes are distances from the lower end.
-/// Without gravity a height is `HeldModesOptions::gravity` over the square of the speed. Held
-/// cords: cord.hpp.
+/// for a hanging chain. N links have N - 1 modes, one more for each end on a spring, less one for
+/// each independent motion of the pins that moves no mass. In `shapes` firm ends are 0, the largest
+/// in size is 1, and the lowest pin that moves has a positive offset; nodes are distances from the
+/// lower end. Without gravity a height is `HeldModesOptions::gravity` over the square of the speed.
 ///
-/// Method: the elements are those of a hanging chain, on top of the lowest link or spring. Modes
-/// are counted in double; each gets a Rayleigh quotient in double-double and two proved counts.
-/// Accuracy: `error_bound` is proved, 1 ulp; wider for a few modes of links 1e9 times lighter than
-/// their neighbours (docs/accuracy.md). A tension or stiffness whose second word is not 0 is taken
-/// as a quotient that was rounded once; otherwise numbers are exact. Cost: 0.7 microseconds a link
-/// and mode, also with shapes.
-/// Throws InvalidArgument for a span (see `steady_shapes`, `stability`) and for a tension that does
-/// not exceed the weight (the chain would not be straight) or is out of range. Also throws for
-/// wrong numbers and windows as `modes` of a chain, and if rounding leaves the number of modes in a
-/// window in doubt.
+/// Method: modes are counted in double; each gets a Rayleigh quotient in double-double and two
+/// proved counts. Accuracy: `error_bound` is proved, 1 ulp; wider for a few modes of links 1e9
+/// times lighter than their neighbours (docs/accuracy.md). Cost: 0.7 microseconds a link and mode,
+/// also with shapes.
+/// Throws InvalidArgument for a span, for a tension that does not exceed the weight, as `modes` of
+/// a chain, and if rounding leaves the number of modes in a window in doubt.
 REVCHAIN_DECLARE
 [[nodiscard]] Modes<double> modes(const Held<Chain<double>>& held,
                                   const HeldModesOptions& options = {});
 
 /// The number of modes slower than a speed, proved. Cost: O(N). Throws InvalidArgument as `modes`,
-/// and unless one of height and speed is given, positive, finite.
+/// and unless one of height and speed is given.
 REVCHAIN_DECLARE
 [[nodiscard]] Index count_modes(const Held<Chain<double>>& held,
                                 const CountOptions<double>& options);
@@ -202,28 +186,21 @@ struct HeldDiagramOptions {
 };
 
 /// The branches of a chain or cord held at a span, one for each number of half waves from 1 to a
-/// gap (off the axis or on springs: four missing modes in a row), at most to the
-/// last with a shape at the greatest speed (for a cord at most 1000). A branch begins at that
-/// speed, on the axis at a shape with its number of half waves, and goes to slower speeds, through
-/// folds.
-/// It ends where a link becomes slack or turns over (`slack`), the cord hangs folded along the axis
-/// (`folded`), the greatest speed is reached again (`speed`), the conical height is 10,000 lengths
-/// (`rest`: off the axis), or 3000 steps are done (`budget`). `HeldBranch::mode` numbers the
-/// branches. If an end is off the axis each number k has two branches. They are found from the
-/// nearly straight shape of k half waves with both ends on the axis and without gravity, mode
-/// 2 k - 1 with its lowest link outwards, mode 2 k inwards. A branch that
-/// returns to the greatest speed where another would begin stands for both.
+/// gap (off the axis or on springs: four missing modes in a row). A branch begins at the greatest
+/// speed and goes to slower speeds, through folds.
+/// It ends as in `HeldBranchEnd`. `HeldBranch::mode` numbers the branches. If an end is off the
+/// axis each number k has two, mode 2 k - 1 with its lowest link outwards, mode 2 k inwards, as the
+/// ends leave the axis. A branch that returns to the greatest speed where another would begin
+/// stands for both.
 ///
 /// Method: arc continuation in (force across, force along, height) at constant span; shapes are
 /// refined in double-double, at folds in double. Branches that begin elsewhere or leave the plane
-/// of the ends are not searched; for a chain with an end on the axis `steady_shapes` can prove that
-/// one speed has no other shapes up to `max_half_waves`.
-/// Accuracy: an estimated 1e-15 rad if `condition` is moderate. A cord folds as it approaches the
-/// slowest speed, at which one of its two straight parts, hung from its end, begins to whirl.
-/// Offsets vanish there faster than any power of the difference of speeds, so the last speed found
-/// is up to 3 percent higher. Cost: some hundred shapes of 10 sweeps each.
-/// Throws InvalidArgument for a tension, no gravity, a step not positive, and unless exactly one of
-/// height and speed is given, positive and finite.
+/// of the ends are not searched. Accuracy: an estimated 1e-15 rad if `condition` is moderate. A
+/// cord folds as it approaches the slowest speed, at which one of its two straight parts begins to
+/// whirl; the last speed found is up to 3 percent higher. Cost: some hundred shapes of 10 sweeps
+/// each.
+/// Throws InvalidArgument for a tension, no gravity, and unless exactly one of height and speed is
+/// given.
 REVCHAIN_DECLARE
 [[nodiscard]] std::vector<HeldBranch> branches(const Held<Chain<double>>& held,
                                                const HeldDiagramOptions& options);

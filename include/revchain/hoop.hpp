@@ -20,8 +20,8 @@ template <Real T>
     return speed / gravity * speed;
 }
 
-/// v = sqrt(g h): the speed of a rim with tension h, and of transverse waves relative to a string
-/// with that tension. For h = breaking length, the speed at which the rim bursts. §5 (3), (6)
+/// v = sqrt(g h): the speed of a rim with tension h (it bursts if h is its breaking length), and of
+/// transverse waves on a string with that tension. §5 (3), (6)
 template <Real T>
 [[nodiscard]] T speed(const T& tension, const T& gravity = T(conical_pendulum::standard_gravity)) {
     using std::sqrt;

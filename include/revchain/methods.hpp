@@ -12,9 +12,8 @@
 ///     const auto m = revchain::modes(rods, {.count = 3}, revchain::methods::all);
 ///     m.method;                      // "condensed"
 ///
-/// `modes` without them finds every mode of every chain by bisection, to the same accuracy, and for
-/// up to 30 links in at most about twice the time. `explain` lists what each method would cost for
-/// a chain. `modes` has all of them in programs that link `revchain::compiled`.
+/// `modes` without them uses bisection, to the same accuracy. `explain` lists what each method
+/// would cost for a chain. `modes` has all of them in programs that link `revchain::compiled`.
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// Lists of methods. A program compiles the methods that it names.
@@ -33,12 +32,11 @@ inline constexpr auto all = std::tuple_cat(within_tolerance, many_modes, long_ch
 
 /// Finds the modes chosen by `options`, by the cheapest method, among `methods` and bisection,
 /// whose error bound is at most `rtol`. `methods` is a list above, or a tuple of your own models
-/// (docs/howto/model.md). Accuracy: as `modes`. Bounds are proved by counts; with `rtol`, those of
-/// closed forms, continuous chains and asymptotic formulas are derived and measured to hold, and
-/// `certify` proves them. Cost: all modes of 1000 links take 16 ms instead of 54, with AVX-512 7
-/// either way; `explain` predicts it. Scalars other than double and float use bisection. Throws
-/// InvalidArgument as `modes`, and in double and float if modes are to be found by an
-/// `options.method` that is neither automatic, bisection nor in `methods`.
+/// (docs/howto/model.md). Accuracy: as `modes`. Bounds are proved by counts; with `rtol`, some are
+/// derived and measured to hold, and `certify` proves them. Cost: all modes of 1000 links take 16
+/// ms instead of 54, with AVX-512 7 either way; `explain` predicts it. Scalars other than double
+/// and float use bisection. Throws InvalidArgument as `modes`, and in double and float if modes are
+/// to be found by an `options.method` that is neither automatic, bisection nor in `methods`.
 template <Real T, class... Models>
 [[nodiscard]] Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options,
                              const std::tuple<Models...>& methods);

@@ -24,14 +24,14 @@
 ///     m.error_bound[0];              // its relative error is at most 4.4e-16: proved
 ///     m.shape(0)[1];                 // offset of the second pin, free end first
 ///
-/// Greenhill (1908) §8 (21) with sec delta = 1. The whirl speed of small amplitude of a chain hung
-/// from a fixed point is the natural angular frequency of its plane swing.
+/// Greenhill (1908) §8 (21) with sec delta = 1. Whirl speeds of small amplitude are also the
+/// natural angular frequencies of the plane swing.
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// How conical heights are found. The last three are in methods.hpp.
 enum class ModesMethod {
     automatic,     ///< the cheapest available method that meets the tolerance
-    bisection,     ///< bisection on counts of modes: any chain, any modes, any tolerance
+    bisection,     ///< bisection on counts of modes
     condensed,     ///< for a few of the slowest modes of a long chain, condensed to blocks; 2 ulp
     aberth,        ///< all modes of a small chain at once (Ehrlich and Aberth)
     interpolated,  ///< for many modes: interpolates the characteristic polynomial
@@ -55,7 +55,7 @@ struct ModesOptions {
 
 /// Intervals lower < exact conical height <= upper of the modes found, and counts that prove them.
 /// For mode k, `above_lower` >= k of the exact heights exceed `lower` and `above_upper` < k exceed
-/// `upper`; `count_modes` returns the same numbers. An end is 0 or infinite if no count was proved.
+/// `upper`. An end is 0 or infinite if no count was proved.
 template <Real T>
 struct Certificate {
     Vector<T> lower;  ///< (k,) in the chain's unit of length
@@ -64,8 +64,7 @@ struct Certificate {
     Vector<Index> above_upper;
 };
 
-/// Whirl modes of a chain, slowest first. Mode k is at index k - first. In an empty window, `first`
-/// is the number of the next faster mode.
+/// Whirl modes of a chain, slowest first. Mode k is at index k - first.
 template <Real T>
 struct Modes {
     Index first = 1;               ///< number of the slowest mode here
@@ -78,14 +77,13 @@ struct Modes {
     Index size() const noexcept { return conical_height.size(); }
     ModeRange range() const { return {first, size()}; }
     /// (k, N+1) offsets of the pins, free end first, support last (0); in each mode the largest
-    /// magnitude is 1 and the free end positive. Computed at the first call, as `residual` and
-    /// `nodes` are; thread-safe.
+    /// magnitude is 1 and the free end positive. Computed at the first call; thread-safe.
     const Table<T>& shapes(Progress* progress = nullptr) const {
         return lazy_shapes_.offsets(size(), progress);
     }
     /// (k,) largest unbalanced force at a pin over the largest sum of magnitudes at a pin
     const Vector<T>& residual() const { return details().residual; }
-    /// k lists: distances from the free end at which the mode crosses the axis
+    /// k lists: distances from the free end at which the mode crosses the axis.
     const std::vector<Vector<T>>& nodes() const { return details().nodes; }
     /// (N+1) offsets of the mode at index j, computed alone unless `shapes` has been called.
     [[nodiscard]] Vector<T> shape(Index j) const { return lazy_shapes_.one(size(), j); }
@@ -116,15 +114,14 @@ struct Modes {
 
 /// The modes chosen by `options`. Shapes are computed on demand.
 ///
-/// Method: bisection. Modes are counted in T at eight trial heights in one pass. A twisted
-/// factorization gives a shape and its Rayleigh quotient in `Wide<T>`; the residual or two counts
-/// prove the bound. A chain of floats is solved in double. methods.hpp adds methods that are faster
-/// for long chains, many modes and loose tolerances; it says which bounds are proved. In a program
-/// that links `revchain::compiled` they are included here. `Modes::method` names the one used.
-/// Windows are decided by proved counts (`ModeCounter::within`), not by rounded heights. Accuracy
-/// without `rtol`: conical heights within 0.501 ulp of the exact ones of the stored numbers
-/// (measured, N up to 1e5, ten kinds of chain: tests/cpp/modes.cpp); the bound is at most 2 ulp,
-/// proved. With `rtol`: it is at most `rtol` unless the status says otherwise. Shapes are
+/// Method: bisection on counts of modes. A twisted factorization gives a shape and its Rayleigh
+/// quotient in `Wide<T>`; the residual or two counts prove the bound. A chain of floats is solved
+/// in double. methods.hpp adds methods that are faster for long chains, many modes and loose
+/// tolerances, and says which bounds are proved. Programs that link `revchain::compiled` have them
+/// here. Windows are decided by proved counts. Accuracy without `rtol`: conical heights within
+/// 0.501 ulp of the exact ones of the stored numbers (measured, N up to 1e5, ten kinds of chain:
+/// tests/cpp/modes.cpp); the bound is at most 2 ulp, proved. With `rtol`: it is at most `rtol`
+/// unless the status says otherwise. Shapes are
 /// within 5.6e-17 of the largest offset (3.5e-16 / gap if weights need several units; rtol / gap
 /// with a looser `rtol`), where gap, at most 1, is the relative distance to the next height. If
 /// `Wide<T>` is T itself (DoubleDouble, a scalar of your own), errors and bounds grow with N.
@@ -132,9 +129,8 @@ struct Modes {
 /// with AVX-512, 50 with SSE2; 20 and 70 with shapes, 250 for weights that need several units.
 /// Memory O(N k) with shapes. Throws InvalidArgument for mode numbers outside 1 ...
 /// `chain.mode_count()`, a window unless 0 <= low < high, numbers together with a window, two
-/// windows, a tolerance that is negative or NaN, gravity not positive with a window of speeds,
-/// negative `threads`, a method that needs methods.hpp, and as `ModeCounter`. A tolerance out of
-/// reach gives `Status::tolerance_not_met` and the bounds reached.
+/// windows, a method that needs methods.hpp, and as `ModeCounter`. A tolerance out of reach gives
+/// `Status::tolerance_not_met` and the bounds reached.
 template <Real T>
 [[nodiscard]] Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options = {});
 

@@ -9,8 +9,8 @@
 ///     const auto pencil = revchain::recurrence_matrices(chain);
 ///     pencil.A(1, 0);  // 1: the weight below the upper pin
 ///
-/// Greenhill (1908) §8 (21) with sec delta = 1. The library solves element pencils (`modes`); this
-/// one is coded separately as an independent check.
+/// Greenhill (1908) §8 (21) with sec delta = 1. `modes` does not use it: it is an independent
+/// check.
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// A y = lambda B y in the offsets y_0 ... y_{N-1} of the pins, free end first.
@@ -20,11 +20,10 @@ struct RecurrencePencil {
     Matrix<T> B;  ///< (N, N), weight / length
 };
 
-/// The pencil of a chain. Row m - 1 is the moment about pin m of everything below it; m = 1 is
-/// (10), m = 2 is (12), m = 3 is (19). It differs from the printed relation in two points:
-/// h_{m-2}/a_{m-1} is corrected to h_{m-2}/a_{m-2}, and y_0 is an unknown in place of 1 +
-/// h_1/(lambda - l_1), which makes the relation linear in lambda. Accuracy: a few roundings an
-/// entry. Cost and memory O(N^2).
+/// The pencil of a chain. Row m - 1 is the moment about pin m of everything below it. It differs
+/// from the printed relation in two points: h_{m-2}/a_{m-1} is corrected to h_{m-2}/a_{m-2}, and
+/// y_0 is an unknown in place of 1 + h_1/(lambda - l_1), which makes the relation linear in lambda.
+/// Accuracy: a few roundings an entry. Cost and memory O(N^2).
 template <Real T>
 [[nodiscard]] RecurrencePencil<T> recurrence_matrices(const Chain<T>& chain) {
     const Index n = chain.size();

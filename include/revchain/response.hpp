@@ -32,8 +32,8 @@ struct ResponseOptions {
     Progress* progress = nullptr;  ///< read and cancelled from another thread
 };
 
-/// Steady forced motion of small amplitude, one row for each speed. For motion to and fro the
-/// numbers are amplitudes: multiply offsets and forces by cos(n t).
+/// Steady forced motion of small amplitude, one row for each speed. For motion to and fro they are
+/// amplitudes of cos(n t).
 struct Response {
     std::vector<Index> pins;
     /// (speeds, pins) positive on the side of the support; at resonance NaN, but not of the support
@@ -51,25 +51,19 @@ struct Response {
 /// have died away: K y = M y / lambda with y = b at the support. For one plummet the offset is b
 /// lambda / (lambda - l), Greenhill (1908) §1 (9).
 ///
-/// Method: the dynamic stiffness of the part below a pin is carried up in double-double, several
-/// speeds at once, with a bound of its error. Ratios of neighbouring offsets then give the offsets
-/// from the support down. Speeds in doubt, next to a resonance or where a pin is nearly a node, are
-/// computed again in interval arithmetic. Accuracy: half an ulp of each offset, up to about 1e-12
-/// from a resonance (1000 links: 1e-11); `error_bound`, which is wider there, and `modes_below` are
-/// proved for every chain. Below all resonances the chain is on the side of its support; each
-/// resonance reverses the free end.
+/// Method: the dynamic stiffness of the part below a pin is carried up in double-double, with a
+/// bound of its error. Speeds in doubt are computed again in interval arithmetic. Accuracy: half an
+/// ulp of each offset, up to about 1e-12 from a resonance (1000 links: 1e-11); `error_bound`, which
+/// is wider there, and `modes_below` are proved.
 /// Results are bitwise the same for any number of threads. Cost: 20 ns for each link and speed.
-/// Memory: the result, which `pins` reduces.
-/// Throws InvalidArgument if both heights and speeds are given, unless heights, radius and gravity
-/// are positive and finite, for negative `threads`, and for pins that do not exist. Speeds must be
-/// finite and not 0, and positive without a flywheel. Heights (given or g/n^2) must be between
-/// 2^-250 and 2^250 times the longest link's length (rounded up to a power of 2).
+/// Throws InvalidArgument if both heights and speeds are given, for a speed of 0, negative without
+/// a flywheel, for numbers out of range, and for pins that do not exist. Heights (given or g/n^2)
+/// must be between 2^-250 and 2^250 times the longest link's length (rounded up to a power of 2).
 REVCHAIN_DECLARE
 [[nodiscard]] Response response(const Chain<double>& chain, const ResponseOptions& options);
 
 /// Returns the response of a rig. `support_radius` replaces the radius of the rig's own support. If
-/// that is a spring, its rest position is carried round. Lowest links that weigh nothing in a fluid
-/// that turns hang straight down from the next pin. Also throws InvalidArgument for springs at
+/// that is a spring, its rest position is carried round. Also throws InvalidArgument for springs at
 /// pins, dashpots, linear drag and a trolley that rolls freely (use `forced_motion`).
 REVCHAIN_DECLARE
 [[nodiscard]] Response response(const Rig& rig, const ResponseOptions& options);

@@ -23,10 +23,9 @@
 ///     const revchain::Rig sprung(chain, {.support = revchain::horizontal_spring(500.0, 10.0)});
 ///
 /// Forces are in the unit of the weights, the stiffness of a support in that unit over the unit of
-/// length, of a pin in that unit times it. Numbers are stored exactly as given. Stiffness and
-/// momentum are double words: with masses for weights, newtons are divided by gravity without
-/// rounding to double, `Wide<double>(500.0) / Wide<double>(9.81)`. `modes` of a rig is in
-/// rig_modes.hpp. Greenhill (1908) §2, §7 and §8.
+/// length, of a pin in that unit times it. Stiffness and momentum are double words: with masses for
+/// weights, newtons are divided by gravity without rounding to double, `Wide<double>(500.0) /
+/// Wide<double>(9.81)`. `modes` of a rig is in rig_modes.hpp. Greenhill (1908) §2, §7 and §8.
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// The support of the uppermost pin. The default is a firm point on the axis.
@@ -42,9 +41,8 @@ struct Support {
     friend bool operator==(const Support&, const Support&) = default;
 };
 
-/// A pin that slides sideways on a spring of stiffness E, Greenhill (1908) §2 (7). For small
-/// amplitudes and without carriage it acts as a thread of length W/E, W the weight of the chain.
-/// Throws InvalidArgument unless stiffness > 0 and carriage weight >= 0, both finite.
+/// A pin that slides sideways on a spring of stiffness E, Greenhill (1908) §2 (7). Throws
+/// InvalidArgument unless stiffness > 0 and carriage weight >= 0.
 [[nodiscard]] inline Support horizontal_spring(const Wide<double>& stiffness,
                                                double carriage_weight = 0) {
     detail::require_positive("horizontal_spring", "stiffness", stiffness.high);
@@ -88,8 +86,7 @@ struct Flywheel {
 };
 
 /// A wheel on free bearings: its spin is constant, `spin` rad/s about the link's axis as seen from
-/// outside. Throws InvalidArgument for a negative weight or radius of gyration, gravity <= 0,
-/// numbers not finite, and if the momentum overflows.
+/// outside. Throws InvalidArgument for numbers out of range.
 [[nodiscard]] Flywheel free_flywheel(double weight, double radius_of_gyration, double spin,
                                      double gravity = conical_pendulum::standard_gravity);
 
@@ -111,7 +108,7 @@ struct Displaced {
     friend bool operator==(const Displaced&, const Displaced&) = default;
 };
 
-/// The fluid displaced by a body of one density: centre and radius of gyration are the body's.
+/// The fluid displaced by a body of one density.
 [[nodiscard]] inline Displaced displaced_by(const Link<double>& link, double weight,
                                             double added_weight = 0) {
     return {weight, link.centroid, link.gyration_ratio, added_weight};
@@ -125,20 +122,18 @@ struct Rigging {
     Fluid fluid = Fluid::still;
     std::vector<Displaced> displaced{};
     std::vector<Pin> pins{};  ///< the upper pin of each link
-    /// Linear drag of each link in still air, force times time over length, >= 0: spread evenly along
-    /// it, on the velocity. It adds to the dashpots what the mass of a uniform rod adds to the masses.
+    /// Linear drag of each link in still air, force times time over length, >= 0: spread evenly
+    /// along it, on the velocity.
     std::vector<Wide<double>> drag{};
 
     friend bool operator==(const Rigging&, const Rigging&) = default;
 };
 
-/// A chain and its rigging. Without rigging answers and costs are those of its `Chain`.
+/// A chain and its rigging.
 ///
 /// Throws InvalidArgument, naming the link, for lists that are neither empty nor as long as the
-/// chain, numbers that are not finite, a carriage or a dashpot at a firm support, a free trolley
-/// with a radius or in a fluid that turns, and a negative stiffness, damping, drag, carriage
-/// weight, radius, axial moment, weight displaced or added, or gyration ratio of a fluid. Cost O(N)
-/// once.
+/// chain, numbers out of range, a carriage or a dashpot at a firm support, and a free trolley with
+/// a radius or in a fluid that turns. Cost O(N) once.
 class Rig {
    public:
     Rig(Chain<double> chain, Rigging with) : chain_(std::move(chain)), with_(std::move(with)) {
@@ -158,14 +153,13 @@ class Rig {
     Flywheel flywheel(Index m) const {
         return with_.flywheels.empty() ? Flywheel{} : with_.flywheels[static_cast<std::size_t>(m)];
     }
-    /// The fluid that link m displaces. Without an entry, or with a default one, the weights are 0,
-    /// and centroid and radius of gyration are those of the link.
+    /// The fluid that link m displaces; by default the weights are 0, and centroid and radius of
+    /// gyration those of the link.
     Displaced displaced(Index m) const {
         const Displaced given =
             with_.displaced.empty() ? Displaced{} : with_.displaced[static_cast<std::size_t>(m)];
         return given == Displaced{} ? displaced_by(chain_.link(m), 0) : given;
     }
-    /// The spring and the dashpot at the upper pin of link m.
     Pin pin(Index m) const {
         return with_.pins.empty() ? Pin{} : with_.pins[static_cast<std::size_t>(m)];
     }
@@ -176,7 +170,6 @@ class Rig {
         return std::any_of(with_.drag.begin(), with_.drag.end(),
                            [](const Wide<double>& drag) { return drag != Wide<double>(0.0); });
     }
-    /// Whether any pin has a spring.
     bool has_pin_springs() const {
         return std::any_of(with_.pins.begin(), with_.pins.end(),
                            [](const Pin& pin) { return pin.stiffness != Wide<double>(0.0); });
@@ -194,14 +187,13 @@ class Rig {
         return (fluid.weight == 0 && fluid.added_weight == 0) ||
                (fluid.centroid == link.centroid && fluid.gyration_ratio == link.gyration_ratio);
     }
-    /// Whether any link has a constant momentum, so that the two directions of rotation differ.
+    /// Whether the two directions of rotation differ.
     bool has_momentum() const {
         return std::any_of(
             with_.flywheels.begin(), with_.flywheels.end(),
             [](const Flywheel& wheel) { return wheel.momentum != Wide<double>(0.0); });
     }
-    /// Whether small motions are those of the chain alone: a firm support, no wheel, no fluid, no
-    /// spring, dashpot or drag, and no link that stands. The support may be carried round.
+    /// Whether small motions are those of the chain alone. The support may be carried round.
     bool is_plain_chain() const {
         if (has_pin_springs() || is_damped()) return false;
         for (Index m = 0; m < size(); ++m)

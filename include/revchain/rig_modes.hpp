@@ -22,9 +22,8 @@
 ///     m.forward.shape(0)[1];           // offset of the second pin, free end first
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// Selects modes of a rig, as `ModesOptions` does. With momentum, `first`, `count` and windows
-/// apply to each direction of rotation; a window of speeds applies to |n|. Mode numbers beyond
-/// those available give no modes.
+/// Selects modes of a rig, as `ModesOptions` does. With momentum they apply to each direction of
+/// rotation, a window of speeds to |n|. Mode numbers beyond those available give no modes.
 struct RigModesOptions {
     Index first = 1;
     std::optional<Index> count{};
@@ -67,7 +66,7 @@ struct WhirlModes {
 };
 
 /// A solution that is not a steady motion: its height is negative or complex, or its speed is
-/// complex. If no force acts on a coordinate, it stays at rest anywhere: height infinite, speed 0.
+/// complex.
 struct OtherMode {
     std::complex<double> conical_height;  ///< lambda = g/n^2
     std::complex<double> angular_speed;   ///< n, rad/s; without momentum, the sign that grows
@@ -106,28 +105,24 @@ struct RigModes {
     Status status = Status::success;  ///< see `modes`
 };
 
-/// Whirl speeds of small amplitude of a rig, Greenhill (1908) §8 (21) with supports, standing
-/// links, floats and flywheels. The radius of a support carried round has no effect. A plain chain
-/// is solved as a chain, to `rtol`; all others to full accuracy, with proved bounds.
+/// Whirl speeds of small amplitude of a rig, Greenhill (1908) §8 (21). The radius of a support
+/// carried round has no effect. A plain chain is solved as a chain, to `rtol`; other rigs to full
+/// accuracy.
 ///
-/// Method without momentum: lambda K y = M y. All heights are real if K > 0 (every link hangs in
-/// net tension) or M >= 0 (no fluid that turns, no driven wheel). Counts number them (Sylvester):
-/// positive ones as modes, negative ones in `other`. With momentum: K + n G - (n^2/g) M. If K > 0
-/// and M >= 0, each of its eigenvalues passes through 0 at most once on either side of n = 0, so
-/// counts number the speeds. If M > 0 there are 2 real ones for each link and for a support on a
-/// spring. Otherwise all heights or speeds are found at once (Ehrlich, Aberth) and proved in
-/// disjoint discs.
+/// Method without momentum: lambda K y = M y. If K > 0 or M >= 0, counts number the heights
+/// (Sylvester): positive ones as modes, negative ones in `other`. With momentum: K + n G - (n^2/g)
+/// M. If K > 0 and M >= 0, counts number the speeds. Otherwise all heights or speeds are found at
+/// once (Ehrlich, Aberth) and proved in disjoint discs.
 /// Accuracy, measured (tests/cpp/rig_modes.cpp): heights without momentum, speeds with it, within
 /// 0.501 ulp of the exact ones of the stored numbers. Their bounds by counts are at most 1 ulp,
 /// wider with springs at pins of very light links; shapes are as for chains. Cost: 50 ns per link
 /// and mode with shapes if all links hang in tension, pins have no springs and no trolley rolls
 /// freely; O(N k) memory. Discs: O(N^2).
-/// Throws InvalidArgument for dashpots or linear drag (use `damped_modes`), `first` or `count`
-/// below 1, gravity not positive, a window unless 0 <= low < high, numbers together with a window,
-/// two windows, a negative `rtol` or `threads`, and numbers too far apart. Also throws for a rig
-/// that needs discs and has springs at pins or, with its yielding support, more than 20,000 links.
-/// A bound that is not proved is infinite. The status is `tolerance_not_met` if a bound is
-/// unproved, that of a height is above `rtol`, or `complete` is false.
+/// Throws InvalidArgument for dashpots or linear drag (use `damped_modes`), numbers together with a
+/// window, two windows, numbers out of range or too far apart, and for a rig that needs discs and
+/// has springs at pins or, with its yielding support, more than 20,000 links. A bound that is not
+/// proved is infinite. The status is `tolerance_not_met` for such a bound, for one above `rtol`,
+/// and if `complete` is false.
 REVCHAIN_DECLARE
 [[nodiscard]] RigModes modes(const Rig& rig, const RigModesOptions& options = {});
 
@@ -135,22 +130,20 @@ namespace detail {
 class RigRoots;
 }
 
-/// Counts the modes of one rig above a conical height or below a speed. The rig is assembled once,
-/// and each count is one O(N) pass; for a rig that needs discs (see `modes`) the constructor finds
-/// all roots. Counts are proved and ties decided as by `ModeCounter`.
+/// Counts the modes of one rig above a conical height or below a speed, proved as by `ModeCounter`.
+/// A count is one O(N) pass; for a rig that needs discs (see `modes`) the constructor finds all
+/// roots.
 class RigModeCounter {
    public:
     /// Throws InvalidArgument for a rig or gravity that `modes` refuses.
     explicit RigModeCounter(const Rig& rig, double gravity = conical_pendulum::standard_gravity);
 
     /// The number of conical heights above `height`, with momentum in both directions together.
-    /// Throws InvalidArgument unless that is positive and finite, and if rounding leaves the count
-    /// in doubt.
+    /// Throws InvalidArgument if rounding leaves the count in doubt.
     [[nodiscard]] Index above_height(double height) const;
 
     /// The number of whirl speeds between 0 and `angular_speed`, rad/s; with momentum its sign is
-    /// the direction. Throws InvalidArgument unless it is finite and not 0, and if rounding leaves
-    /// the count in doubt.
+    /// the direction. Throws InvalidArgument for 0, and if rounding leaves the count in doubt.
     [[nodiscard]] Index below_speed(double angular_speed) const;
 
    private:

@@ -45,9 +45,7 @@ struct RopePoint {
 class SkippingRope {
    public:
     /// Throws InvalidArgument for numbers that are not positive and finite, for too few or too
-    /// many, and if no rope exists or double cannot hold it. None exists for a length not above
-    /// span or slack, a sag not below half the length of a half wave, a slack not below twice the
-    /// sag per half wave, a rope too slow or too tight to bend.
+    /// many, and if no such rope exists, as with a length not above the span.
     explicit SkippingRope(const RopeGiven& given);
 
     Index half_waves() const noexcept { return half_waves_; }
@@ -63,7 +61,7 @@ class SkippingRope {
     /// Moment of inertia about the axis over the mass per length: a length cubed.
     [[nodiscard]] double moment_of_inertia() const;
 
-    /// Whether angular speed or tension was given. Else the next four throw InvalidArgument.
+    /// Whether angular speed or tension was given; else the next four throw InvalidArgument.
     bool has_speed() const { return conical_height_.has_value(); }
     [[nodiscard]] double conical_height() const;
     double angular_speed() const {
@@ -77,8 +75,7 @@ class SkippingRope {
     /// The point at the arc length `arc`, 0 <= arc <= length. Throws InvalidArgument outside.
     [[nodiscard]] RopePoint at_arc(double arc) const;
 
-    /// The rope with its ends moved to another span, with the same length and angular momentum. The
-    /// work done on it, over the mass per length, is the gain in moment_of_inertia() n^2 / 2.
+    /// The rope with its ends moved to another span, with the same length and angular momentum.
     [[nodiscard]] SkippingRope drawn_to(double span) const;
 
    private:
@@ -96,7 +93,7 @@ class SkippingRope {
 };
 
 /// The data of a rope that winds round its axis, all positive; the least radius may be 0 (a plane
-/// rope). With equal radii the rope is a helix.
+/// rope).
 struct TortuousGiven {
     double least_radius, greatest_radius;
     double angular_speed;                                 ///< n
@@ -124,8 +121,7 @@ struct TortuousPoint {
 /// Cost: 0.2 microseconds to construct, 0.3 microseconds a point.
 class TortuousRope {
    public:
-    /// Throws InvalidArgument for data outside the ranges above, if a result overflows, and if
-    /// tension g/n^2 underflows.
+    /// Throws InvalidArgument for data outside the ranges above.
     explicit TortuousRope(const TortuousGiven& given);
 
     double least_radius() const noexcept { return first_; }
@@ -134,9 +130,8 @@ class TortuousRope {
     double height_times_tension() const noexcept { return strength2_; }
     EllipticModulus modulus() const { return functions_.modulus(); }
 
-    // A half wave runs from one point nearest to the axis to the next. Its length along the axis,
-    // slack (length of rope minus length along the axis), length of rope, and angle round the axis
-    // (pi for a plane rope, which crosses it).
+    // A half wave runs from one point nearest to the axis to the next: its length along the axis,
+    // slack, length of rope, and angle round the axis.
     double half_wave() const { return 2 * functions_.complete().K * scale_; }
     [[nodiscard]] double half_wave_slack() const;
     [[nodiscard]] double half_wave_length() const { return half_wave() + half_wave_slack(); }

@@ -19,9 +19,9 @@
 ///     s.weight().error_bound(0, 1); // its absolute error, proved
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// The data of a link. In a derivative all other data of all links are constant. `length` moves the
-/// lower pin alone. `length_in_proportion` changes centroid and radius of gyration in proportion,
-/// too, as the length of a plummet's thread or of a rod does.
+/// The data of a link. In a derivative all other data are constant. `length` moves the lower pin
+/// alone. `length_in_proportion` changes centroid and radius of gyration in proportion, too, as the
+/// length of a plummet's thread or of a rod does.
 enum class Datum { weight, length, centroid, radius_of_gyration, length_in_proportion };
 
 inline constexpr std::array<std::string_view, 5> datum_names{
@@ -55,16 +55,13 @@ struct Sensitivity {
 
 /// Derivatives of the conical heights of `modes`, which must be those of this chain, with respect
 /// to every datum of every link. They are the derivatives of lambda = y^T M y / y^T K y at the
-/// exact shape, where a change of the shape has no effect of first order:
+/// exact shape:
 ///     (y^T dM y - lambda y^T dK y) / y^T K y.
-/// Each is formed from offset and slope of its link; the derivative for a weight also has the sum
-/// of a s^2 over the links above, which carry it. Laws: sum of W d/dW = 0; sum of a d/da + h d/dh +
-/// rho d/drho = lambda. A link's part of this sum, a times `length_in_proportion`, is lambda times
-/// its share of y^T K y, so a longer link, in proportion, never lowers a height. Accuracy: every
-/// entry is within its error bound, which is proved; measured 0.51 ulp of entries above 1e-3 of the
-/// largest sum of terms (tests/cpp/sensitivity.cpp). The heights in `modes` need not be accurate.
-/// Cost: 0.5 microseconds a link and mode; O(N k) memory. Throws InvalidArgument if the chain's
-/// weights are more than 1e123 apart.
+/// Laws: sum of W d/dW = 0; sum of a d/da + h d/dh + rho d/drho = lambda. Accuracy: every entry is
+/// within its error bound, which is proved; measured 0.51 ulp of entries above 1e-3 of the largest
+/// sum of terms (tests/cpp/sensitivity.cpp). The heights in `modes` need not be accurate. Cost: 0.5
+/// microseconds a link and mode; O(N k) memory. Throws InvalidArgument if the chain's weights are
+/// more than 1e123 apart.
 template <Real T>
 [[nodiscard]] Sensitivity<T> sensitivity(const Chain<T>& chain, const Modes<T>& modes);
 
@@ -92,20 +89,17 @@ struct Uncertainty {
 };
 
 /// Standard deviations of conical heights from those of the data: variance = sum of (d lambda/dx)^2
-/// var x, or d^T C d for a datum with a covariance C. The error is of second order: with the first
-/// three derivatives l', l'', l''' of a height, the relative error of the variance is some sigma^2
-/// (l''^2/l'^2 + |l'''/l'|), which is large if a derivative is nearly 0. Cost O(k N), with a
-/// covariance O(k N^2). Throws InvalidArgument for lists that are neither of one number nor of N,
-/// deviations negative or not finite, a covariance not N by N, not symmetric or with a negative
-/// variance, and for another number of heights.
+/// var x, or d^T C d for a datum with a covariance C. The error is of second order in the
+/// deviations, and large if a derivative is nearly 0. Cost O(k N), with a covariance O(k N^2).
+/// Throws InvalidArgument for lists of another length, deviations negative or not finite, and a
+/// covariance that is not N by N, not symmetric or has a negative variance.
 template <Real T>
 [[nodiscard]] Uncertainty<T> uncertainty(const Sensitivity<T>& sensitivity,
                                          const std::type_identity_t<Vector<T>>& conical_height,
                                          const Deviations<T>& deviations);
 
-/// d(whirl speed)/d(datum) of one mode of a rig with all other data constant. Speeds may have
-/// either sign. The first five are for the links' own data, as in `Datum`; the momentum of
-/// flywheels and the data of the displaced fluid are constant.
+/// d(whirl speed)/d(datum) of one mode of a rig with all other data constant. The first five are
+/// for the links' own data, as in `Datum`.
 struct RigSensitivity {
     Vector<double> weight;                ///< (N,)
     Vector<double> length;                ///< (N,) the lower pin moved; 0 of the lowest link
@@ -122,33 +116,30 @@ struct RigSensitivity {
 /// Derivatives of the whirl speed n of a mode with these offsets (N + 1, free end first, the
 /// support's pin last). They follow from y^T (K + n G - n^2 M/g) y = 0, stationary in y:
 ///     dn/dx = - y^T (dK + n dG - n^2 dM/g) y / y^T (G - 2 n M/g) y.
-/// With s the slope of a link, dG/dH is s^2 for a link that hangs, -s^2 for one that stands. dn/dx
-/// is formed in double-double. Offsets with errors e of the largest give x dn/dx an error of about
+/// Accuracy: formed in double-double; offsets with errors e of the largest give x dn/dx an error of
+/// about
 ///     4 e (|K| + |n G| + n^2 |M|/g) / |y^T (G - 2 n M/g) y|
-/// at most (spectral norms) if all links hang, and a larger one where two speeds nearly meet.
-/// Cost O(N). Throws InvalidArgument for a speed that is 0 or not finite, gravity not positive,
-/// offsets not N + 1, not finite, or that move no weight and tilt no flywheel, weights more than
-/// 1e123 apart, springs at pins, dashpots and linear drag.
+/// (spectral norms) if all links hang, and a larger one where two speeds nearly meet.
+/// Cost O(N). Throws InvalidArgument for a speed of 0, offsets that are not N + 1 or move no
+/// weight, numbers out of range, weights more than 1e123 apart, springs at pins, dashpots and
+/// linear drag.
 REVCHAIN_DECLARE
 [[nodiscard]] RigSensitivity sensitivity(const Rig& rig, double angular_speed,
                                          const Vector<double>& offset,
                                          double gravity = conical_pendulum::standard_gravity);
 
 /// The momentum of the flywheel of the link at index `link` with which `angular_speed` is a whirl
-/// speed of some mode, all else constant. It is unique: momentum adds to the tension, and at that
-/// speed the parts below and above the link act as springs at its pins. Formed in double-double:
-/// the speed has a relative error of 1e-14 (tests/cpp/linear/rig_sensitivity.cpp). Cost O(N).
-/// Throws InvalidArgument for a speed that is 0 or not finite, gravity not positive, springs at
-/// pins, dashpots, linear drag, weights more than 1e123 apart, a link number out of range, and if
-/// no finite momentum has that effect.
+/// speed of some mode, all else constant. It is unique. Accuracy: the speed has a relative error of
+/// 1e-14 (tests/cpp/linear/rig_sensitivity.cpp). Cost O(N). Throws InvalidArgument for a speed of
+/// 0, numbers out of range, springs at pins, dashpots, linear drag, weights more than 1e123 apart,
+/// and if no finite momentum has that effect.
 REVCHAIN_DECLARE
 [[nodiscard]] double momentum_for_speed(const Rig& rig, Index link, double angular_speed,
                                         double gravity = conical_pendulum::standard_gravity);
 
 /// The stiffness of the support's spring with which `angular_speed` is a whirl speed of some mode,
-/// all else constant. At that speed the chain and the carriage act on the spring as one more
-/// spring. Accuracy, cost and errors are those of `momentum_for_speed`. Also throws InvalidArgument
-/// if no positive finite stiffness has that effect.
+/// all else constant. Accuracy, cost and errors are those of `momentum_for_speed`. Also throws
+/// InvalidArgument if no positive finite stiffness has that effect.
 REVCHAIN_DECLARE
 [[nodiscard]] double stiffness_for_speed(const Rig& rig, double angular_speed,
                                          double gravity = conical_pendulum::standard_gravity);

@@ -65,14 +65,12 @@ struct GovernorEffort {
 /// / (I + J) is added to the numerator if the shaft has the moment of inertia I and turns freely.
 ///
 /// Accuracy measured: squares of speeds 1e-12 (tests/cpp/sleeve_governor.cpp), periods 1e-14
-/// (tests/python/test_governor.py). Cost: 50 ns a point, 0.1 ms for all
-/// equilibria, 0.3 ms close to a critical speed.
+/// (tests/python/test_governor.py). Cost: 50 ns a point, 0.1 ms for all equilibria.
 class SleeveGovernor {
    public:
-    /// Throws InvalidArgument unless ball mass, arm, gravity and `balls` are positive, sleeve mass,
-    /// other arms, `joint`, stiffness, friction and inertia not negative, and all but the inertia
-    /// finite. Also throws for lower links too short for the sleeve at inclination 0, lower links
-    /// together with sleeve arms, and sleeve mass, spring or friction without either.
+    /// Throws InvalidArgument for numbers out of range, lower links too short for the sleeve at
+    /// inclination 0, lower links together with sleeve arms, and sleeve mass, spring or friction
+    /// without either.
     explicit SleeveGovernor(const GovernorData& data);
 
     const GovernorData& data() const noexcept { return data_; }
@@ -82,10 +80,8 @@ class SleeveGovernor {
     /// The speed of equilibrium, NaN or infinite if there is none.
     [[nodiscard]] double speed(double inclination) const { return at(inclination).speed; }
     /// All equilibria at a speed with the arms at most horizontal and the balls on their own side
-    /// of the axis, by inclination; stops are ignored. Intervals prove that there are no others.
-    /// `complete` is false if two lie too close together to be told apart, if the force vanishes
-    /// almost everywhere, or if it drives the arms outwards where they reach farthest. Throws
-    /// InvalidArgument unless 0 <= speed <= 1e100.
+    /// of the axis, by inclination; stops are ignored. `complete` is true if intervals prove that
+    /// there are no others. Throws InvalidArgument unless 0 <= speed <= 1e100.
     [[nodiscard]] std::vector<GovernorPoint> equilibria(double speed,
                                                         bool* complete = nullptr) const;
     /// The answer to a speed that rises by the fraction `change` from the equilibrium at an

@@ -36,11 +36,10 @@ struct StabilityWindowsOptions {
 ///
 /// Method: `stability` at every point of the branch and at `samples - 1` points between two (with
 /// `thorough` only in programs that link revchain::compiled). Where the verdict changes, the step
-/// is halved until it is as short as `tolerance`. An undecided part as short between two verdicts
-/// counts as the edge. A window shorter than the distance between two samples can be missed, so the
-/// result is not proved. Accuracy: edges to `tolerance`. Cost: that of `stability` for each sample.
-/// Throws InvalidArgument if the numbers of links differ, for a tolerance not above 0, for
-/// `samples` below 1, and as `stability`.
+/// is halved until it is as short as `tolerance`. A window shorter than the distance between two
+/// samples can be missed, so the result is not proved. Accuracy: edges to `tolerance`. Cost: that
+/// of `stability` for each sample. Throws InvalidArgument for a tolerance not above 0, `samples`
+/// below 1, and as `stability`.
 REVCHAIN_DECLARE
 [[nodiscard]] std::vector<StabilityWindow> stability_windows(
     const Chain<double>& chain, const Branch& branch, const StabilityWindowsOptions& options = {});

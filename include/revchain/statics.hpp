@@ -21,11 +21,10 @@ namespace revchain::inline REVCHAIN_BUILD {
 /// pins free end first; a row is a point (x from the axis, z upwards).
 ///
 /// The vertices of the funicular polygon are the pins, its sides the links, its loads `load`. In
-/// the diagram of force the line of load goes vertically upwards from the pole O, one segment for
-/// each load. The ray OQ_m ends at the level of its segment's end; it is parallel to link m, and
-/// its length is the tension along the link. The weight of a plummet is on its pin, and Q_m is also
-/// the reaction. A link of another kind divides its weight and centrifugal force between its pins
-/// by balance about them, and the reaction at a pin lies between the rays of its links.
+/// the diagram of force the ray OQ_m from the pole O is parallel to link m, and its length is the
+/// tension along the link. The weight of a plummet is on its pin, and Q_m is also the reaction. A
+/// link of another kind divides its weight and centrifugal force between its pins by balance about
+/// them, and the reaction at a pin lies between the rays of its links.
 struct ForceDiagram {
     Table<double> pin;       ///< (N + 1, 2) vertices; the support (0, 0) last
     Table<double> load;      ///< (N, 2) on all pins but the support: centrifugal force, -weight
@@ -41,17 +40,16 @@ struct ForceDiagram {
     double conical_height = 0;
 };
 
-/// The diagram of a steady shape of this chain. Rays are sums of loads and are not computed from
-/// inclinations, so comparing them with the links checks the shape. They are parallel to 5 ulp of
-/// the sum of all loads' magnitudes (tests/cpp/statics.cpp). Cost O(N). Throws InvalidArgument
-/// unless the shape has as many links as the chain.
+/// The diagram of a steady shape of this chain. Rays are sums of loads, so comparing them with the
+/// links checks the shape. They are parallel to 5 ulp of the sum of all loads' magnitudes
+/// (tests/cpp/statics.cpp). Cost O(N). Throws InvalidArgument unless the shape has as many links as
+/// the chain.
 [[nodiscard]] ForceDiagram force_diagram(const Chain<double>& chain, const SteadyShape& shape);
 
 /// The straight chain with the weights of the shape moved to the axis at their levels. Each link's
 /// length is the height between its two pins in the shape. Its mode at the shape's conical height
-/// has the offsets of the shape, at any inclination below a right angle and for links of any kind.
-/// Its stiffness is that of the shape perpendicular to the turning plane. Throws InvalidArgument as
-/// `force_diagram`, and for an inverted link.
+/// has the offsets of the shape. Throws InvalidArgument as `force_diagram`, and for an inverted
+/// link.
 [[nodiscard]] Chain<double> transferred_to_axis(const Chain<double>& chain,
                                                 const SteadyShape& shape);
 
@@ -91,14 +89,10 @@ struct TransverseModes {
     }
 };
 
-/// All transverse modes of weights on a thread of uniform tension, held at both ends. They are also
-/// the modes of a funicular polygon with this horizontal tension, perpendicular to its plane. A
-/// side of length a and tension T resists with T/a, the horizontal component over the horizontal
-/// length. `weight` (n); `position` (n + 2) with both supports. Method: an equivalent hanging chain
-/// (`modes`). Accuracy: heights 2 ulp (tests/cpp/statics.cpp), within `error_bound`, which is the
-/// proved bound of `modes` plus the roundings of spacings and unit. Throws InvalidArgument unless
-/// there are weights, weights and tension are positive, positions increase, and all numbers, also
-/// the heights, are finite.
+/// All transverse modes of weights on a thread of uniform tension, held at both ends. `weight` (n);
+/// `position` (n + 2) with both supports. Method: an equivalent hanging chain (`modes`). Accuracy:
+/// heights 2 ulp (tests/cpp/statics.cpp), within `error_bound`. Throws InvalidArgument unless there
+/// are weights, weights and tension are positive, positions increase, and all numbers are finite.
 template <Real T>
 [[nodiscard]] TransverseModes<T> transverse_modes(const std::type_identity_t<Vector<T>>& weight,
                                                   const std::type_identity_t<Vector<T>>& position,

@@ -30,11 +30,8 @@ struct SteadyShape {
     double conical_height = 0;            ///< g/n^2 of the speed n
     double residual = 0;     ///< largest unbalanced moment over (weight times length of the chain)
     double error_bound = 0;  ///< of every inclination, rad: proved (not at a fold)
-    /// Condition number, rad. If each force changes by a fraction e of itself, of either sign, no
-    /// inclination changes by more than e times this number. (If links stand or have several
-    /// inclinations, this bounds the changes of moments about the upper pins.) If another number
-    /// than the height is given on a branch, it is an estimate: the largest change for a few
-    /// patterns of signs and for a change of that number by a fraction e.
+    /// Condition number, rad: about the largest change of an inclination if each force changes by a
+    /// small fraction of itself, over that fraction.
     double condition = 0;
     /// about the axis, weight times length squared (over g: a moment of inertia)
     double moment_of_inertia = 0;
@@ -89,46 +86,34 @@ struct SteadyShapes {
     long cells = 0;                           ///< number of parts of the range that were examined
 };
 
-/// All steady shapes (relative equilibria) of a chain that whirls at a given speed. With
-/// `hanging_only` every link of a shape is within a right angle of the downward vertical; without
-/// it any posture is listed. Other postures, and links that hang at several inclinations under one
-/// load, need `thorough` as the last argument, or revchain::compiled. Straight shapes are omitted.
-/// Only one of two mirror images is listed: the one whose free end has a positive offset. If that
-/// offset is 0, it is the one whose lowest inclined link has a positive inclination.
+/// The steady shapes (relative equilibria) of a chain that whirls at a given speed. With
+/// `hanging_only` every link of a shape is within a right angle of the downward vertical. Other
+/// postures, and links that hang at several inclinations under one load, need `thorough` as the
+/// last argument, or revchain::compiled. Straight shapes are omitted. Of two mirror images the one
+/// whose free end has a positive offset is listed.
 ///
-/// Method: the offset of the support is a function of the tangent t of the lowest link's
-/// inclination, Greenhill (1908) §8 (4), (12). The range of t is split, in interval arithmetic with
-/// first and second derivatives, until each part has exactly one zero or none. Newton's method and
-/// Krawczyk's test then treat all pins in double-double. Links that stand, or hang at several
-/// inclinations under one load (lambda <= W h (l - a)/(W h + a S): pendulum length l > a, or a
-/// centroid above the upper pin), are followed along each inclination. Krawczyk's test then decides
-/// boxes of all tangents. Accuracy: every inclination is within `error_bound`, proved, mostly
-/// 2.3e-16 (4.4e-16 if links stand); measured errors are at most 2 ulp of the inclination, or 1e-27
-/// times `condition`, which is large near a critical height. Without `thorough` bounds are wider if
-/// links lie within 1e-5 of the horizontal: 1e-14 for three plummets at 1e-5 of a link's length,
-/// 6e-7 at 1e-7. `complete` is proved too. If it is false, `undecided` has the ranges where shapes
-/// may be missing: at exactly a critical speed or a fold, or if the budget is used up, as for
-/// chains of 15 plummets or more at heights near 1/1000 of their length. It is also false, even
-/// with nothing undecided, if a link between the lowest and topmost could lean to any side under no
-/// load: lambda (W h + a S) <= W h (l - a), or <= W h (a - l) if it may stand. There may then be
-/// shapes that lie in no plane with the axis; these are not searched. If each link has one
-/// inclination for its load, a scan adds the shapes it finds there. At heights below 2^-50 (9e-16)
-/// of the longest length (rounded up to a power of 2) nothing is listed and `complete` is false.
-/// There tensions would lose their digits: double-double resolves offsets to 2^-104 of that length,
-/// and a sideways pull is an offset over the height. Cost for equal plummets: the 46 shapes of
-/// eight at 1/200 of their length take 5 ms, the 14 shapes of 1000 at 1/500 of their length 2 s. In
-/// any posture, at 1/1000 of the length, the 18 shapes of three take 2 ms, the 64 of four 12 ms.
-/// Threads share the refinement of shapes, about half of the cost, with `hanging_only` if each link
-/// has one inclination for its load; otherwise they share nothing. Results are bitwise the same for
-/// any number of threads.
+/// Method: the offset of the support is a function of the tangent of the lowest link's inclination,
+/// Greenhill (1908) §8 (4), (12). Its range is split, in interval arithmetic, until each part has
+/// exactly one zero or none. Newton's method and Krawczyk's test then treat all pins in
+/// double-double. Links that stand, or hang at several inclinations under one load (lambda <= W h
+/// (l - a)/(W h + a S)), are followed along each inclination. Accuracy: every inclination is within
+/// `error_bound`, proved, mostly 2.3e-16 (4.4e-16 if links stand); measured errors are at most 2
+/// ulp of the inclination, or 1e-27 times `condition`. Without `thorough` bounds are wider if links
+/// lie within 1e-5 of the horizontal. `complete` is proved too. If it is false, `undecided` has the
+/// ranges where shapes may be missing: at a critical speed or a fold, or if the budget is used up.
+/// It is also false if a link between the lowest and topmost could lean to any side under no load,
+/// because shapes that lie in no plane with the axis are not searched. At heights below 9e-16 of
+/// the longest length nothing is listed and `complete` is false. Cost for equal plummets: the 46
+/// shapes of eight at 1/200 of their length take 5 ms, the 14 shapes of 1000 at 1/500 of their
+/// length 2 s. In any posture, at 1/1000 of the length, the 18 shapes of three take 2 ms, the 64 of
+/// four 12 ms. Results are bitwise the same for any number of threads.
 /// Above the first critical height there is no shape in any posture. Proof: let s be the sines of
 /// the inclinations d, G their mass matrix, kappa = W h + a S, D = lambda diag(kappa |sec d|) > G,
 /// and E = diag(+-1) the postures. Then E D s = G s gives, with w = D^1/2 s, |E w| = |D^-1/2 G
-/// D^-1/2 w| < |w|: only w = 0 is possible. An angular speed n gives the height g/n^2, formed in
-/// double-double.
-/// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, for
-/// gravity not positive and weights more than 1e123 apart. Also throws for links that stand or may
-/// hang at several inclinations, unless `thorough` is given.
+/// D^-1/2 w| < |w|: only w = 0 is possible.
+/// Throws InvalidArgument unless exactly one of height and speed is given, for weights more than
+/// 1e123 apart and, unless `thorough` is given, for links that stand or may hang at several
+/// inclinations.
 REVCHAIN_DECLARE
 [[nodiscard]] SteadyShapes steady_shapes(const Chain<double>& chain,
                                          const SteadyShapesOptions& options);
@@ -136,23 +121,17 @@ REVCHAIN_DECLARE
 [[nodiscard]] SteadyShapes steady_shapes(const Chain<double>& chain,
                                          const SteadyShapesOptions& options, Thorough);
 
-/// All steady shapes of a rig that whirls at a given speed, in its posture or in any posture.
-/// Accuracy, cost and `complete` are those of chains (tests/cpp/finite/shapes/rigs.cpp); the cost
-/// about doubles for a support off the axis. For a support carried round at radius b > 0 every
-/// shape is listed, outwards positive.
+/// The steady shapes of a rig that whirls at a given speed, in its posture or in any posture.
+/// Accuracy and cost are those of chains (tests/cpp/finite/shapes/rigs.cpp). For a support carried
+/// round at radius b > 0 positive is outwards.
 ///
 /// Method: that of chains. The sweep must end in y - b - (H + W y)/(lambda E) = 0: y is the offset
 /// of the topmost pin, H/lambda its sideways pull, W the carriage weight, E the spring's stiffness.
-/// With b > 0 tangents of both signs are searched. The pull of a link is tension + n
-/// momentum/length. If it is negative (a wheel against the rotation, a float), the link leans
-/// against its load and is followed along each inclination. `complete` is also false if a link
-/// leans against its load in a rig of so many links that the budget is spent, if the topmost link
-/// of a support off the axis or on a spring could lean to any side, or if lambda E equals the total
-/// moving weight, to rounding. Pins may then be at any distance, and the search ends far beyond the
-/// chain's reach. Throws InvalidArgument as for chains, and for a speed so small that g/n^2
-/// overflows; a negative speed is the backward direction. Also throws for springs at pins, linear
-/// drag, a dashpot at the support, an effective tension that vanishes, and a lowest link whose
-/// moving weights balance about its pin.
+/// The pull of a link is tension + n momentum/length. If it is negative (a wheel against the
+/// rotation, a float), the link leans against its load and is followed along each inclination.
+/// `complete` is also false if the topmost link of a support off the axis or on a spring could lean
+/// to any side. Throws InvalidArgument as for chains, and for springs at pins, linear drag, a
+/// dashpot at the support and an effective tension that vanishes.
 REVCHAIN_DECLARE
 [[nodiscard]] SteadyShapes steady_shapes(const Rig& rig, const RigShapesOptions& options);
 REVCHAIN_DECLARE

@@ -48,31 +48,23 @@ struct Swing {
 
 /// Small oscillations of a hanging chain in a plane, superposed from its modes.
 ///
-/// A pin without inertia (between massless threads) has no start of its own, because its neighbours
-/// pull it into place at once. `Swing::start` has the offsets of least potential energy with the
-/// same momenta; `projected` is true if they differ from the given ones.
+/// A pin without inertia (between massless threads) has no start of its own. `Swing::start` has the
+/// offsets of least potential energy with the same momenta; `projected` is true if they differ from
+/// the given ones.
 ///
-/// Heights, shapes, frequencies and angles are in double-double, and offsets are summed with
-/// compensation. Two bounds hold for every offset at every time, both proved
-/// (docs/theory/motion.md). `truncation_error` follows from the energy outside the modes used and
-/// y_m^2 <= 2 E sum of a/(W h/a + S) above the pin, `error_bound` from residuals, angles and
-/// rounding. Accuracy measured (tests/cpp/swing.cpp): 2e-16 of the sum of the modes' amplitudes.
-/// Cost: 0.5 microseconds for each link and mode, and 3 ns for each link, mode and time. Throws
-/// InvalidArgument for starts that are not finite or of another length, a support that moves, a
-/// count below 0 or above the number of modes, gravity <= 0, times not finite, weights more than
-/// 1e123 apart.
+/// `truncation_error` and `error_bound` hold for every offset at every time, both proved
+/// (docs/theory/motion.md). Accuracy measured (tests/cpp/swing.cpp): 2e-16 of the sum of the modes'
+/// amplitudes. Cost: 0.5 microseconds for each link and mode, and 3 ns for each link, mode and
+/// time. Throws InvalidArgument for starts of another length, a support that moves, numbers out of
+/// range, and weights more than 1e123 apart.
 REVCHAIN_DECLARE
 [[nodiscard]] Swing swing(const Chain<double>& chain, const SwingOptions& options);
 
-/// The swing of a rig that is stable at rest: with a support that yields, with its carriage, still
-/// fluid with buoyancy and added mass, standing links. If the support yields, its offset and
-/// velocity may be given, last in each start; a carriage without weight goes where the chain pulls
-/// it. Links do not turn about their own axes, so axial moments of wheels have no effect. Also
-/// throws InvalidArgument if a flywheel has momentum (use `whirl_swing`), for a support that is
-/// carried round (use `response`), for a fluid that turns, and for springs at pins, dashpots,
-/// linear drag and a trolley that rolls freely (use `transient`). It also throws if the straight
-/// rig is unstable (the message says how fast it falls) or in neutral balance, and for lowest links
-/// without inertia.
+/// The swing of a rig that is stable at rest. If the support yields, its offset and velocity may be
+/// given, last in each start. Axial moments of wheels have no effect. Also throws InvalidArgument
+/// if a flywheel has momentum (use `whirl_swing`), for a support that is carried round (use
+/// `response`), for a fluid that turns, and for springs at pins, dashpots, linear drag and a
+/// trolley that rolls freely (use `transient`), and unless the straight rig is stable.
 REVCHAIN_DECLARE
 [[nodiscard]] Swing swing(const Rig& rig, const SwingOptions& options);
 
@@ -101,17 +93,16 @@ struct WhirlSwing {
 
 /// Small oscillations of a rig with flywheels: (1/g) M u'' - i G u' + K u = 0, u = x + i y, where G
 /// has their momenta on the links. Whirls u = y exp(i n t) have the speeds and shapes of `modes`,
-/// in both directions. The angular momentum of a link about its own axis is constant and the link
-/// does not turn about it, so axial moments have no effect. Any two whirls satisfy y_j^T (G - (n_j
-/// + n_k) M/g) y_k = 0, so the coefficient of whirl j in a start (u, u') is
+/// in both directions. Axial moments have no effect. The coefficient of whirl j in a start (u, u')
+/// is
 ///     c_j = y_j^T [(n_j M/g - G) u - i M/g u'] / y_j^T (2 n_j M/g - G) y_j.
 ///
 /// Bounds are those of `swing`, proved if every link hangs in tension at rest. If only the momenta
 /// keep standing links from falling, the bounds are infinite. Accuracy measured
 /// (tests/cpp/whirl_swing.cpp): 2e-16 of the sum of the amplitudes. Cost: 0.5 microseconds for each
 /// link and whirl, and 5 ns for each link, whirl and time.
-/// Throws InvalidArgument as `swing` of a rig does, except for momentum. Also throws if no flywheel
-/// has momentum, and for pins without inertia.
+/// Throws InvalidArgument as `swing` of a rig, unless a flywheel has momentum, and for pins without
+/// inertia.
 REVCHAIN_DECLARE
 [[nodiscard]] WhirlSwing whirl_swing(const Rig& rig, const WhirlSwingOptions& options);
 

@@ -14,16 +14,16 @@
 ///     found.shapes.size();                     // 3, one of them with both links hanging
 ///
 /// `steady_shapes` and `branches` then also take links that stand or may hang at several
-/// inclinations. `branches` tries to prove that no branch is missing, and `stability` computes up to
-/// 50 links with twice the digits if double is not enough. In programs that link
-/// `revchain::compiled` all functions are thorough. The headers of these functions include this one.
+/// inclinations. `branches` tries to prove that no branch is missing, and `stability` computes up
+/// to 50 links with twice the digits if double is not enough. In programs that link
+/// `revchain::compiled` all functions are thorough.
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// The type of `thorough`.
 struct Thorough {
     explicit constexpr Thorough() = default;
 };
-/// Passed as the last argument, it selects all methods.
+/// The last argument that selects all methods.
 inline constexpr Thorough thorough{};
 
 namespace detail {

@@ -24,16 +24,15 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 /// A prescribed motion of the support, or a force on it, in time. Times ascend; between two of them
 /// velocities, accelerations and forces are straight lines, offsets a cubic spline. Two equal times
-/// are a jump of accelerations or forces. A support that has a spring is moved at the far end of
-/// the spring, any other itself.
+/// are a jump of accelerations or forces. A support on a spring is moved at the far end of the
+/// spring.
 struct SupportMotion {
     enum class Given { acceleration, velocity, offset, force };
     Given given = Given::acceleration;
     std::vector<double> time{};   ///< >= 0; before the first and after the last no acceleration
     std::vector<double> value{};  ///< for each time. The first offset is 0 unless offsets are given
     /// For offsets: true if the support rests before the first time and after the last. If false,
-    /// it goes on with the velocities at the ends. One cubic then holds over the first two pieces,
-    /// and one over the last two.
+    /// it goes on with the velocities at the ends.
     bool rests = true;
 };
 
@@ -54,8 +53,7 @@ struct Transient {
     double end = 0;  ///< the time at which the prescribed motion is over, or 0
     /// (N+1) since then, the largest distance of each pin from below the support, and of the
     /// support from its resting place, seen at 400 instants, to 1 %. Motions with a damping ratio
-    /// below 0.05 count with their whole amplitudes: it may be too large. Infinite if the motion
-    /// grows
+    /// below 0.05 count with their whole amplitudes. Infinite if the motion grows
     Vector<double> sway{};
     Vector<std::complex<double>> exponent{};  ///< (k,) of the motions, see `damped_modes`
     Table<std::complex<double>> shape{};      ///< (k, N+1)
@@ -69,18 +67,15 @@ struct Transient {
 
 /// Motion in time: Q(d/dt) q = load with the matrices of `damped_modes`, as the sum of all damped
 /// motions q_j, each driven by q_j^T load: exact for loads that are polynomials between two times.
-/// The support's own dashpot acts on its velocity over the ground. Links do not turn about their
-/// own axes.
 ///
 /// If damping is critical, so that two motions become one, the matrix exponential of the
-/// first-order form goes from time to time instead; `sway` is then the largest of 400 instants.
-/// Accuracy measured (tests/cpp/transient.cpp): 1e-11 of the largest offset; by exponentials, or
-/// with masses 1e16 apart, mostly within `error_estimate`. Cost: `damped_modes` once, and 15 ns for
-/// each link, motion and time.
-/// Throws InvalidArgument for starts not finite or of another length, a start of a support that is
-/// moved by hand, times that are negative or do not ascend, a motion with fewer than two times or
-/// that jumps in place or grows beyond all numbers, a force on a firm support, a support that is
-/// carried round, a fluid that turns, more than 1000 links, and complex starts without momentum.
+/// first-order form goes from time to time instead. Accuracy measured (tests/cpp/transient.cpp):
+/// 1e-11 of the largest offset; by exponentials, or with masses 1e16 apart, mostly within
+/// `error_estimate`. Cost: `damped_modes` once, and 15 ns for each link, motion and time.
+/// Throws InvalidArgument for starts of another length, a start of a support that is moved, times
+/// that are negative or do not ascend, a motion with fewer than two times, a force on a firm
+/// support, a support that is carried round, a fluid that turns, more than 1000 links, and complex
+/// starts without momentum.
 REVCHAIN_DECLARE
 [[nodiscard]] Transient transient(const Rig& rig, const TransientOptions& options);
 

@@ -59,9 +59,8 @@ struct Tuned {
     /// Absolute error bound of `value`: proved counts at this distance on either side differ.
     double error_bound = std::numeric_limits<double>::infinity();
     std::vector<double> values{};  ///< all values found, ascending
-    /// Proved: `values` has every solution between `low` and `high`, as counts assign each root of
-    /// the quadratic to a mode. Always false for a weight: only the nearest solution on each side
-    /// is searched.
+    /// Proved: `values` has every solution between `low` and `high`. False for a weight, whose
+    /// nearest solution on each side is searched.
     bool complete = false;
     double low{}, high{};  ///< the range searched, without the part in which a link would stand
     /// Extremes of the mode's height seen in that range, for a weight, and if no value is found.
@@ -73,23 +72,19 @@ struct Tuned {
 /// The value of a datum that gives a mode a conical height or whirl speed.
 ///
 /// At a given height the chain below and above a link acts as a spring at each of its pins. A
-/// length, a centroid or a radius of gyration that gives any mode this height is then a root of an
-/// equation of degree 1 or 2. Proved counts on each side of a root assign it to a mode and bound
-/// its error. A weight loads all links above. On each side steps lead to the nearest value or to
-/// one within 7 % of it (after 60 steps within a factor of 3.5), or the side is given up. Accuracy:
-/// `error_bound`, proved. Measured: 1 ulp of the value if its logarithmic derivative exceeds 1e-11.
-/// If no value is found, the extremes are those of 33 sampled values and, for a weight, of those
-/// searched. Cost: some counts of modes, O(N) each; for a weight, of heights. Throws
-/// InvalidArgument for numbers out of range, for weights more than 1e123 apart, and unless exactly
-/// one of height and speed is given. Also throws for a range in which a link always stands: this
-/// one or, for a weight, one above. A part of a range in which one stands is cut off.
+/// length, a centroid or a radius of gyration with this height is then a root of an equation of
+/// degree 1 or 2. Proved counts on each side of a root assign it to a mode and bound its error. For
+/// a weight, on each side steps lead to the nearest value or to one within 7 % of it (after 60
+/// steps within a factor of 3.5), or the side is given up. Accuracy: `error_bound`, proved.
+/// Measured: 1 ulp of the value if its logarithmic derivative exceeds 1e-11. Cost: some counts of
+/// modes, O(N) each; for a weight, of heights. Throws InvalidArgument for numbers out of range, for
+/// weights more than 1e123 apart, unless exactly one of height and speed is given, and for a range
+/// in which a link always stands.
 REVCHAIN_DECLARE
 [[nodiscard]] Tuned tune(const Chain<double>& chain, const TuneOptions& options);
 
 /// Deleted: `tune` is for chains; the Python function also takes rigs, cords and held systems. For
-/// a rig use `momentum_for_speed` or `stiffness_for_speed` (sensitivity.hpp). If a cord is
-/// stretched with all on it, its heights grow in proportion. For a `Held` change its system, make a
-/// new `Held` and call `modes`.
+/// a rig use `momentum_for_speed` or `stiffness_for_speed` (sensitivity.hpp).
 Tuned tune(const Rig& rig, const TuneOptions& options) = delete;
 Tuned tune(const Cord& cord, const TuneOptions& options) = delete;
 template <class System>

@@ -23,9 +23,8 @@
 ///
 /// Greenhill (1908) §2, §6 and §8 (13)-(17). Lengths and weights in any units, angles in rad. Pairs
 /// of conical heights are roots of a quadratic, computed without a difference of nearly equal
-/// numbers; no product leaves the range of T. All heights are O(1). Functions throw InvalidArgument
-/// for numbers that are not finite, and for lengths and weights that are not positive unless a
-/// function says otherwise.
+/// numbers, O(1). Functions throw InvalidArgument for numbers that are not finite, and for lengths
+/// and weights that are not positive unless a function says otherwise.
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// Two conical heights, the larger one (the slower mode) first.
@@ -48,9 +47,9 @@ template <Real T>
 
 /// Both heights of two plummets on a thread of total length 2a: (lambda - a)^2 = (mu a^2 + x^2) /
 /// (1 + mu), §2 (6). `half_length` is a, `x` the distance of the upper plummet from the middle on
-/// either side, `weight_ratio` mu = W1/W2. A negative mu is a float below, lighter than the fluid
-/// it displaces, in a fluid that turns with it; heights are then real only where |x| >= a sqrt(-mu)
-/// (Stokes). Accuracy: 4 ulp. Throws InvalidArgument for complex heights, |x| >= a and mu <= -1.
+/// either side, `weight_ratio` mu = W1/W2. A negative mu is a float below, in a fluid that turns
+/// with it; heights are then real where |x| >= a sqrt(-mu) (Stokes). Accuracy: 4 ulp. Throws
+/// InvalidArgument for complex heights, |x| >= a and mu <= -1.
 template <Real T>
 [[nodiscard]] HeightPair<T> two_plummets_from_the_middle(const T& half_length, const T& x,
                                                          const T& weight_ratio) {
@@ -88,15 +87,13 @@ template <Real T>
 }
 
 /// Both heights of a compound link whose support yields sideways on a spring: those on a thread as
-/// long as the deflection of the spring. The paper's lambda = l + c holds for plummets only.
-/// Accuracy: 4 ulp.
+/// long as the deflection of the spring. Accuracy: 4 ulp.
 template <Real T>
 [[nodiscard]] HeightPair<T> link_on_spring(const T& deflection, const CompoundLink<T>& link) {
     return detail::hung_link("link_on_spring", "deflection", deflection, link);
 }
 
-/// Deflection W/E of a spring with stiffness E under the weight W. A weight on the spring moves as
-/// on a thread of that length, §2 (7).
+/// Deflection W/E of a spring with stiffness E under the weight W, §2 (7).
 template <Real T>
 [[nodiscard]] T spring_deflection(const T& weight, const T& stiffness) {
     detail::require_positive("spring_deflection", "weight", weight, "stiffness", stiffness);
@@ -104,8 +101,7 @@ template <Real T>
 }
 
 /// Seconds a day that a clock loses because the support of its pendulum yields by `deflection` to
-/// its weight: 86400 (1 - sqrt(l / lambda)) for a clock that is right on a firm support. Accuracy:
-/// 8 ulp, also for tiny deflections and where deflection and pendulum length nearly agree.
+/// its weight: 86400 (1 - sqrt(l / lambda)). Accuracy: 8 ulp.
 template <Real T>
 [[nodiscard]] T seconds_lost_per_day(const T& deflection, const CompoundLink<T>& link) {
     using std::max, std::sqrt;
@@ -124,9 +120,9 @@ template <Real T>
                        : T(86400) * ((half + root) / over);
 }
 
-/// Height of the motion in which a link stands on its lowest point, balanced above a thread or a
-/// moving hand: (l + lambda)(a - lambda) = a h, §6 (12), with h and l measured upwards from that
-/// point. It is 0 (no such motion) if the radius of gyration is 0 and h >= a. Accuracy: 5 ulp.
+/// Height of the motion in which a link stands on its lowest point, above a thread or a moving
+/// hand: (l + lambda)(a - lambda) = a h, §6 (12), with h and l measured upwards from that point. It
+/// is 0 (no such motion) if the radius of gyration is 0 and h >= a. Accuracy: 5 ulp.
 template <Real T>
 [[nodiscard]] T standing_link(const T& thread, const CompoundLink<T>& link) {
     detail::require_positive("standing_link", "thread", thread);
@@ -147,8 +143,7 @@ template <Real T>
 }
 
 /// Height of a plummet that stands on a stiff massless rod above another plummet, which hangs by a
-/// thread: (l1 + lambda)(l2 - lambda) = W1 l1 l2 / (W1 + W2), §2 (8). At small inclinations it
-/// always exists. Accuracy: 4 ulp.
+/// thread: (l1 + lambda)(l2 - lambda) = W1 l1 l2 / (W1 + W2), §2 (8). Accuracy: 4 ulp.
 template <Real T>
 [[nodiscard]] T standing_plummet(const T& standing_weight, const T& rod, const T& hung_weight,
                                  const T& thread) {
@@ -158,8 +153,8 @@ template <Real T>
                                  detail::upper_share(standing_weight, rod, hung_weight, thread));
 }
 
-/// A steady shape of two links, lowest first. It stands for itself and for its mirror image: its
-/// free end (or lowest centre of oscillation) has a positive offset.
+/// A steady shape of two links, lowest first, with its free end (or lowest centre of oscillation)
+/// on the positive side.
 template <Real T>
 struct PairShape {
     std::array<T, 2> inclination;  ///< to the vertical
@@ -170,15 +165,11 @@ struct PairShape {
     int half_waves() const { return offset[1] < T(0) ? 2 : 1; }
 };
 
-/// All shapes in which two plummets hang at the speed with conical height `height`, §2 (4); at most
+/// The shapes in which two plummets hang at the speed with conical height `height`, §2 (4); at most
 /// four, sorted by half waves, then by the inclination of the lower thread. None if `height` is at
-/// least the first of `two_plummets`. The list is complete: the proof is in
+/// least the first of `two_plummets`. The proof that no other exists is in
 /// paper/two_links_shapes.hpp. Cost: 1 microsecond a shape.
 /// Accuracy: inclinations 4 ulp for the data as given, also near a fold and near the vertical.
-/// Near the vertical, rounding of the data changes tangents by up to about 2 height_k / (height_k -
-/// height) times as much if a shape leaves the vertical at height_k. Where two shapes meet, it
-/// changes them by its square root. Also throws InvalidArgument for a length/height beyond a third
-/// of the range.
 template <Real T>
 [[nodiscard]] std::vector<PairShape<T>> two_plummets_shapes(const T& lower_weight,
                                                             const T& lower_thread,
@@ -193,7 +184,7 @@ template <Real T>
                                                        upper_weight, upper_thread, height));
 }
 
-/// All shapes in which a compound link hangs on a thread, §6 (10), both with the tension of the
+/// The shapes in which a compound link hangs on a thread, §6 (10), both with the tension of the
 /// thread; otherwise as `two_plummets_shapes`.
 template <Real T>
 [[nodiscard]] std::vector<PairShape<T>> link_on_thread_shapes(const T& thread,
@@ -207,7 +198,7 @@ template <Real T>
 
 /// The shape in which a plummet stands above another one on a stiff massless rod, §2 (8), if
 /// `height` is below `standing_plummet`. inclination[0] is the rod's to the upward vertical,
-/// tension[0] its thrust, negative. Accuracy, cost and errors as `two_plummets_shapes`.
+/// tension[0] its thrust, negative. Otherwise as `two_plummets_shapes`.
 template <Real T>
 [[nodiscard]] std::optional<PairShape<T>> standing_plummet_shape(const T& standing_weight,
                                                                  const T& rod, const T& hung_weight,
@@ -220,8 +211,7 @@ template <Real T>
 }
 
 /// The shape in which a compound link stands on its lowest point, §6 (12) with the secants of (10).
-/// Both tensions are that of the thread, or of the hand that moves as the thread's end does.
-/// Otherwise as `standing_plummet_shape`.
+/// Both tensions are that of the thread. Otherwise as `standing_plummet_shape`.
 template <Real T>
 [[nodiscard]] std::optional<PairShape<T>> standing_link_shape(const T& thread,
                                                               const CompoundLink<T>& link,
@@ -259,13 +249,12 @@ template <Real T>
     return {static_cast<T>(roots[0]) / n.unit, static_cast<T>(roots[1]) / n.unit};
 }
 
-/// All shapes in which two jointed links hang: (lambda sec d1 - l1)(lambda sec d2 - p) = a2 h1/(m +
-/// 1) with p = (m l2 + a2)/(m + 1), and (lambda sec d1 - l1) sin d1 = a2 sin d2, §8 (14). Order,
-/// number and method as `two_plummets_shapes`. offset[0] is that of the lower link's centre of
-/// oscillation. Tensions are the magnitudes of the forces at each link's upper pin over the whole
-/// weight. Accuracy (tests/cpp/two_links.cpp): inclinations 8 ulp unless shapes are about to meet,
-/// tensions 4 ulp of the sizes of their terms.
-/// Throws InvalidArgument as `jointed_links` and `two_plummets_shapes`.
+/// The shapes in which two jointed links hang: (lambda sec d1 - l1)(lambda sec d2 - p) = a2 h1/(m +
+/// 1) with p = (m l2 + a2)/(m + 1), and (lambda sec d1 - l1) sin d1 = a2 sin d2, §8 (14). offset[0]
+/// is that of the lower link's centre of oscillation. Tensions are the magnitudes of the forces at
+/// each link's upper pin over the whole weight. Accuracy (tests/cpp/two_links.cpp): inclinations 8
+/// ulp unless shapes are about to meet, tensions 4 ulp of the sizes of their terms. Otherwise as
+/// `two_plummets_shapes` and `jointed_links`.
 template <Real T>
 [[nodiscard]] std::vector<PairShape<T>> jointed_links_shapes(const JointedLinks<T>& links,
                                                              const T& height) {
@@ -293,12 +282,10 @@ template <Real T>
 }
 
 /// Distance of the clapper's pin below the support of its bell with which both swing, or whirl at
-/// any inclination, as one piece. The bell is then silent. The distance is a2 = w (l2 - l1)/(w + l1
-/// - h1) with w = W2 h2/W1, §8 (16), at the height l1 + a2. Accuracy: 4 ulp for the data as given,
-/// also where l1 and l2 nearly agree; rounding of the data changes the distance by up to 3 (l1 +
-/// l2)/(l2
-/// - l1) + 6 times as much. Also throws InvalidArgument unless the clapper has the shorter pendulum
-/// length: otherwise the bell rings with any pin below its support.
+/// any inclination, as one piece, so that the bell is silent: a2 = w (l2 - l1)/(w + l1 - h1) with w
+/// = W2 h2/W1, §8 (16), at the height l1 + a2. Accuracy: 4 ulp for the data as given, also where l1
+/// and l2 nearly agree. Also throws InvalidArgument unless the clapper has the shorter pendulum
+/// length.
 template <Real T>
 [[nodiscard]] T pin_of_silent_clapper(const T& bell_weight, const CompoundLink<T>& bell,
                                       const T& clapper_weight, const CompoundLink<T>& clapper) {
@@ -318,9 +305,9 @@ template <Real T>
 }
 
 /// Distance CD from the pin C of a uniform rod, at the distance `pin` = CG from its middle G, to
-/// the point D where the rod does not bend. A joint there leaves it straight: CG.CD = CA^2, A the
-/// end above C, §8 (17). Accuracy: 2.5 ulp for pins up to 0.49 length. Also throws InvalidArgument
-/// unless length/6 < pin < length/2: for C in the middle third D is off the rod.
+/// the point D where the rod does not bend: CG.CD = CA^2, A the end above C, §8 (17). Accuracy: 2.5
+/// ulp for pins up to 0.49 length. Also throws InvalidArgument unless length/6 < pin < length/2:
+/// for C in the middle third D is off the rod.
 template <Real T>
 [[nodiscard]] T joint_without_bending(const T& length, const T& pin) {
     constexpr std::string_view place = "joint_without_bending";
