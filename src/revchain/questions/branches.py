@@ -39,7 +39,7 @@ def branch(
     max_points: int = 10_000,
     max_step: float = 0.1,
 ) -> Branch:
-    """Return the branch of steady shapes of one mode, followed through every fold.
+    """Return the branch of steady shapes of one mode, followed through its folds.
 
     Parameters
     ----------
@@ -58,19 +58,18 @@ def branch(
     direction : {1, -1}, optional
         Direction of rotation; only a rig with flywheels depends on it.
     max_points : int, optional
-        Largest number of points; ``end`` is ``budget`` if the branch is cut off there. Not used for held systems.
+        Largest number of points; not used for held systems.
     max_step : float, optional
-        Largest step between two points, in units of ``Branch.arc``; the first step of a chain or rig from the vertical may
-        be 0.1. For a held system: largest relative change of the forces at its end and of the conical height.
+        Largest step after the first, in units of ``Branch.arc``. For a held system: largest relative change of the forces at
+        its end and of the conical height.
 
     Returns
     -------
     Branch
         The points of the branch. The branch of a hanging system runs from the critical speed of its mode, where it is
-        straight, to the given speed. With the support off the axis the branch starts at a tenth of the lower of two speeds:
-        the given speed, and the first critical speed of the rig with its support on the axis. The branch of a held system
-        runs from the given speed to lower ones and, after a fold, back. Accuracy: numbers to 1e-12; folds to 1e-6 of the
-        arc, their heights to 1e-13, those of a cord to 1e-9.
+        straight, to the given speed. With the support off the axis it starts near rest. The branch of a held system runs
+        from the given speed to lower ones and, after a fold, back. Accuracy: numbers to 1e-12; folds to 1e-6 of the arc,
+        their heights to 1e-13, those of a cord to 1e-9.
 
     Raises
     ------
@@ -84,8 +83,8 @@ def branch(
     Notes
     -----
     Method: pseudo-arclength continuation in all inclinations and the height; for a held system in the forces at its lower
-    end and the height. Each step is checked, so that it stays on the branch; this is not a proof. Cost: O(N) for each point.
-    Source: Greenhill (1908), section 8 (4), (12).
+    end and the height. The steps are checked, not proved. Cost: O(N) for each point. Source: Greenhill (1908), section 8
+    (4), (12).
 
     Examples
     --------
@@ -145,9 +144,8 @@ def branches(
     direction : {1, -1}, optional
         Direction of rotation; only a rig with flywheels depends on it.
     budget : int, optional
-        Limit of the work. The list of all shapes may visit this many links at each of 16 speeds (see `steady_shapes`); the
-        proof that no branch is missing has a similar limit. A visit takes 0.1 to 1 microsecond. Not used for cords and held
-        systems.
+        Limit of the work. The list of all shapes may visit this many links at each of 16 speeds (see `steady_shapes`). A
+        visit takes 0.1 to 1 microsecond. Not used for cords and held systems.
     hanging_only : bool, optional
         Chains and rigs: whether to leave out branches with a link above its upper pin (for a rig: with other links inverted
         than those of the rig). If false, the branches of all ``2**N`` postures are found; N at most 10.
@@ -177,21 +175,17 @@ def branches(
     Notes
     -----
     A listed shape that matches no branch lies on an isolated branch, which is then followed from that shape to its end.
-    ``consistent`` is true if the shapes of each list match the branches one to one, and no branch stops early. Lists of
-    chains and rigs must be proved; those of cords are scanned.
 
     An isolated branch that is a closed loop can begin and end between two of the 16 speeds, so that no list contains it.
     Interval arithmetic therefore splits the plane of conical height and tangent of the lowest link until each part has no
     fold, or has all its shapes on one curve through a known branch. Loops found in this way are followed. ``complete`` is
-    true if this succeeds for every part. The proof relies on `branch`, whose steps are checked, not proved.
+    true if this succeeds for every part. The proof relies on the checks of `branch`.
 
     For rigs (on springs, on an arm, with flywheels, in fluids) the proof needs all links in tension at every speed up to the
-    given one. On a spring so soft that the centrifugal force grows faster than its pull nothing is proved; ``remark`` gives
-    these heights.
+    given one.
 
     A branch keeps its posture. ``hanging_only=False`` therefore computes the branches of the ``2**N`` rigs in which some of
-    the links are inverted. ``consistent`` then refers to the proved lists of every posture, and ``complete`` is false except
-    for one link: the proof that no loop is missing is for links that hang.
+    the links are inverted.
 
     Cost for equal plummets down to a conical height of 1/200 of the length: three 5 ms, five 25 ms, eight on threads of
     length a, to 5 sqrt(g/a): 0.1 s; for twenty equal rods, 1 m in all, to 20 rad/s: 0.04 s. All postures of plummets down to

@@ -91,12 +91,9 @@ def fit(
     sum of squares. It is not proved that there is no lower minimum far from the start. Uncertainties are to first order:
     they assume that speeds are linear in the data.
 
-    Which measurement disagrees: the leverage of a measurement is its element h on the diagonal of the hat matrix, the part
-    of a change of the measured value by which the computed one follows. Its residual has the standard deviation ``u * sqrt(1
-    - h)``; the residual divided by it is `Fitted.standardized_residual`. Without given uncertainties the scatter of the
-    other measurements takes the place of u (externally studentized residual). The measurement with the largest one disagrees
-    if it exceeds `Fitted.disagreement_limit`: if the model is correct, at most one fit in a hundred does so by chance
-    (Bonferroni's inequality). To first order; Cook and Weisberg, *Residuals and Influence in Regression* (1982), chapter 2.
+    The measurement with the largest `Fitted.standardized_residual` disagrees with the others if that exceeds
+    `Fitted.disagreement_limit`. If the model is correct, at most one fit in a hundred does so by chance (Bonferroni's
+    inequality). To first order; Cook and Weisberg, *Residuals and Influence in Regression* (1982), chapter 2.
 
     The speeds of a chain without springs and wheels depend on ratios of its masses: they cannot determine all. Such
     combinations have singular values of the derivatives below 1e-8 of the largest; the result names them.

@@ -111,7 +111,7 @@ def modes(
     Accuracy: ``error_bound`` is the relative error bound (by default at most 2 ulp for a chain and 1 ulp for a held chain,
     proved by counts). Cost: O(N) for each mode; shapes, when they are read, take O(N) time and memory for each mode, too.
     For a rig whose speeds may be complex all speeds are found, in about 1 microsecond times the square of the number of
-    links. Other Python threads can run meanwhile.
+    links.
 
     References
     ----------

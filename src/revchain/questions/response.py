@@ -64,7 +64,7 @@ def response(
         positive. With momentum of flywheels the force turns with the speed, as a radius and an acceleration do; to and fro
         is then the mean of the responses at both signs of the speed.
     pins : int or array_like of int, optional
-        Pins to return, from 0 (free end) to N or -1 (support); all N + 1 if left out. Fewer pins save memory in long sweeps.
+        Pins to return, from 0 (free end) to N or -1 (support); all N + 1 if left out.
     threads : int, optional
         Number of threads; 0 for all processors. Results are bitwise equal for any number.
 
@@ -96,7 +96,7 @@ def response(
     Method: upward sweep of the dynamic stiffness in double-double with a running error bound. Accuracy: half an ulp of each
     offset, unless the speed is within about 1e-12 of a resonance (1000 links: 1e-11). The proved bound is wider: within
     1e-13 of a resonance for one link, 3e-7 for 1000. Cost: about 0.012 microseconds for each link and speed, 2.5 with
-    springs or dashpots at pins. Other Python threads can run meanwhile.
+    springs or dashpots at pins.
 
     References
     ----------
