@@ -29,26 +29,26 @@ def conical_heights(
     """Return the conical heights of many chains that have the same number of links.
 
     The arrays broadcast against each other by the rules of numpy. The last axis counts the links, lowest first; the other
-    axes count the chains. A number, or an array of shape (N,), holds for all chains.
+    axes count the chains.
 
     Parameters
     ----------
     mass, weight : array_like, shape (..., N)
-        Mass of each link, kg, or its weight, not negative. A link of mass 0 is a massless thread; the lowest link must
-        have mass.
+        Mass of each link, kg, or its weight, not negative. A link of mass 0 is a massless thread; the lowest link must have
+        mass.
     length : array_like, shape (..., N)
         Distance between the pins of each link, m, positive.
     centroid : array_like, shape (..., N), optional
-        Distance of the centre of gravity below the *upper* pin, m; negative if it lies above the pin. If left out,
-        the links are point masses: all the weight is at the lower pin.
+        Distance of the centre of gravity below the *upper* pin, m. If left out, the links are point masses at their lower
+        pins.
     pendulum_length : array_like, shape (..., N), optional
         Length of the equivalent simple pendulum about the upper pin, m.
     radius_of_gyration : array_like, shape (..., N), optional
-        Radius of gyration about the centre of gravity, m, not negative. With `centroid`, give either
-        this or `pendulum_length`.
+        Radius of gyration about the centre of gravity, m, not negative. With `centroid`, give either this or
+        `pendulum_length`.
     count : int, optional
-        Number of modes of each chain, slowest first. If left out, all modes; all chains must then have equally many
-        (a massless link may remove one).
+        Number of modes of each chain, slowest first; all if left out. It is needed if the chains have different numbers of
+        modes.
     threads : int, optional
         Number of threads; 0 for all processors.
 
@@ -56,23 +56,21 @@ def conical_heights(
     -------
     numpy.ndarray, shape (..., count)
         Conical heights ``g / n**2``, descending, in the unit of the lengths. They are bitwise equal for any number of
-        threads and wherever a chain is in the batch.
+        threads.
 
     Raises
     ------
     ValueError
-        If a number is not real and finite, or the shapes cannot be broadcast; if `Chain` would refuse one of the chains
-        (the message names the chain, and the link and number at fault); unless exactly one of `mass` and `weight` is given;
-        if `threads` is negative; if `centroid` comes without exactly one of `pendulum_length` and `radius_of_gyration`, or
-        one of these without `centroid`; if `count` is less than 1 or exceeds the modes of a chain, or is left out and
-        chains have different numbers of modes; if heights of a chain cannot be proved to half the digits.
+        If the shapes cannot be broadcast; if `Chain` would refuse one of the chains (the message names the chain, and the
+        link and number at fault); if `count` is less than 1 or exceeds the modes of a chain; if heights of a chain cannot be
+        proved to half the digits.
 
     Notes
     -----
-    Accuracy, measured for up to 100 links: 4.5 ulp (1e-15) for plummets and rods, 6 ulp if weights span 1e12, 14 ulp if
-    the mass of each link is in one point between its pins. Counts verify the number of each mode. Cost for all modes of a chain: 0.25 microseconds with ten plummets,
+    Accuracy, measured for up to 100 links: 4.5 ulp (1e-15) for plummets and rods, 6 ulp if weights span 1e12, 14 ulp if the
+    mass of each link is in one point between its pins. Cost for all modes of a chain: 0.25 microseconds with ten plummets,
     0.4 with ten rods. Chains with massless links, or with centroids at or above the pin, are solved one by one as by
-    `modes`, at 10 to 100 times the cost. Other Python threads can run meanwhile.
+    `modes`, at 10 to 100 times the cost.
 
     References
     ----------

@@ -39,20 +39,18 @@ def branch(
     max_points: int = 10_000,
     max_step: float = 0.1,
 ) -> Branch:
-    """Return the branch of steady shapes of one mode, followed through every fold.
+    """Return the branch of steady shapes of one mode, followed through its folds.
 
     Parameters
     ----------
     system : Chain, Rig, Cord or Held
-        The system: a chain of N links, a rig, a cord, or a chain or cord held at a span. Along the branch of a rig each
-        link keeps its posture (hanging or inverted).
+        The system: a chain of N links, a rig, a cord, or a chain or cord held at a span. Along the branch of a rig each link
+        keeps its posture (hanging or inverted).
     mode : int
         Number of the mode, from 1 for the slowest. A rig with its support off the axis has only mode 1, the branch from
-        rest; `branches` finds its isolated branches. For a held system with its ends on the axis it is the number of
-        half waves at the start of the branch; off the axis see `Branch.mode`.
+        rest; `branches` finds its isolated branches. For a held system see `Branch.mode`.
     max_angular_speed : float
-        Speed at which to stop, rad/s, above that of the mode. The branch of a held system starts at this speed and goes
-        to lower speeds.
+        Speed at which to stop, rad/s, above that of the mode. The branch of a held system starts at this speed.
     min_conical_height : float
         Conical height of that speed, m, instead of `max_angular_speed`.
     gravity : float, optional
@@ -60,42 +58,33 @@ def branch(
     direction : {1, -1}, optional
         Direction of rotation; only a rig with flywheels depends on it.
     max_points : int, optional
-        Largest number of points; ``end`` is ``budget`` if the branch is cut off there. A held system ignores it and stops
-        after 3000 steps.
+        Largest number of points; not used for held systems.
     max_step : float, optional
-        Largest step between two points, in units of ``Branch.arc``; the first step of a chain or rig from the vertical
-        may be 0.1. For a held system: largest relative change of the forces at its end and of the conical height.
+        Largest step after the first, in units of ``Branch.arc``. For a held system: largest relative change of the forces at
+        its end and of the conical height.
 
     Returns
     -------
     Branch
-        The points of the branch. The branch of a hanging system runs from the critical speed of its mode to the given
-        speed; its first point is the straight chain. It is the only point if double precision cannot separate the end
-        from it; ``end`` is then ``stuck``. With the support off the axis the branch starts at a tenth of the lower of
-        two speeds: the given speed, and the first critical speed of the rig with its support on the axis. The branch of
-        a held system runs from the given speed to lower ones and, after a fold, back; it ends where a link becomes
-        slack or a cord folds. Accuracy: numbers to 1e-12; folds to 1e-6 of the arc,
+        The points of the branch. The branch of a hanging system runs from the critical speed of its mode, where it is
+        straight, to the given speed. With the support off the axis it starts near rest. The branch of a held system runs
+        from the given speed to lower ones and, after a fold, back. Accuracy: numbers to 1e-12; folds to 1e-6 of the arc,
         their heights to 1e-13, those of a cord to 1e-9.
 
     Raises
     ------
     ValueError
-        If there is no such mode (with a support off the axis: if `mode` is not 1), if not exactly one of
-        `max_angular_speed` and `min_conical_height` is given, if the speed is not above that of the mode, if a number
-        is out of its range, or if `direction` is neither 1 nor -1; if a `Held` system is under a tension or has no
+        If there is no such mode, if not exactly one of `max_angular_speed` and `min_conical_height` is given, if the speed
+        is not above that of the mode, or if a number is out of its range; if a `Held` system is under a tension or has no
         gravity; if a rig has springs at pins, a dashpot at its support, linear drag or a free trolley.
     TypeError
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
 
     Notes
     -----
-    Method: pseudo-arclength continuation in all inclinations and the height; for a held system in the forces at its
-    lower end and the height. A step is halved unless Newton's method
-    contracts at once, the direction turns little, and the middle of the step lies on the branch too. For a chain without
-    links of ``pendulum_length > length`` or ``centroid < 0``, the half waves must not change either. This is a check, not
-    a proof. For a cord the
-    curve is that on which crossing `mode` of the axis lies at the support. Cost: O(N) for each point. Source: Greenhill
-    (1908), section 8 (4), (12).
+    Method: pseudo-arclength continuation in all inclinations and the height; for a held system in the forces at its lower
+    end and the height. The steps are checked, not proved. Cost: O(N) for each point. Source: Greenhill (1908), section 8
+    (4), (12).
 
     Examples
     --------
@@ -144,9 +133,8 @@ def branches(
     Parameters
     ----------
     system : Chain, Rig, Cord or Held
-        A chain or a rig of few links, because all shapes are listed (`steady_shapes`), for a rig those in its own
-        posture; a cord; or a chain or cord held at a span. For a held system only the branches that start with the
-        nearly straight chain are found.
+        A chain or a rig of few links, because all shapes are listed (`steady_shapes`); a cord; or a chain or cord held at a
+        span. For a held system the branches that start with the nearly straight chain are found.
     max_angular_speed : float
         Largest speed, rad/s.
     min_conical_height : float
@@ -156,70 +144,52 @@ def branches(
     direction : {1, -1}, optional
         Direction of rotation; only a rig with flywheels depends on it.
     budget : int, optional
-        Limit of the work. The list of all shapes may visit this many links at each of 16 speeds (see `steady_shapes`).
-        The proof that no branch is missing may use a third of this number, with the support off the axis two thirds.
-        A visit takes 0.1 to 1 microsecond. Not used for cords and held systems.
+        Limit of the work. The list of all shapes may visit this many links at each of 16 speeds (see `steady_shapes`). A
+        visit takes 0.1 to 1 microsecond. Not used for cords and held systems.
     hanging_only : bool, optional
-        Chains and rigs: whether to leave out branches with a link above its upper pin (for a rig: with other links
-        inverted than those of the rig). If false, the branches of all ``2**N`` postures are found; N at most 10.
+        Chains and rigs: whether to leave out branches with a link above its upper pin (for a rig: with other links inverted
+        than those of the rig). If false, the branches of all ``2**N`` postures are found; N at most 10.
     stability : bool, optional
         Whether to compute `Branch.verdict` of every branch now, to draw the windows of stability and to list them in
-        reports; not for cords. Otherwise tables and pictures compute it when they need it, if that takes less than about
-        a second.
+        reports; not for cords.
 
     Returns
     -------
     Branches
-        A sequence of branches. First come those that leave the vertical, slowest first (with the support off the axis
-        the one from rest), then the isolated ones, slowest first. Most isolated ones come from the largest speed and turn
-        back at a fold. Those of a held system are ordered by half waves. For a cord ``complete`` is true if a theorem
-        counts the shapes (see `steady_shapes`) and every branch was followed to its end. Those of held systems have no
-        ``complete``; `steady_shapes` can prove a list at one speed.
-
-        With ``hanging_only=False`` the branches of the system's own posture come first, then those of each other posture.
-        `Branch.system` is the `Rig` with the links of the posture inverted (for its own posture the given system), and
-        ``mode`` counts its modes. ``complete`` is then false, except for a chain of one link: the proof that no loop is
-        missing between two speeds is for links that hang.
+        A sequence of branches. First come those that leave the vertical, slowest first (with the support off the axis the
+        one from rest), then the isolated ones, slowest first. Those of a held system are ordered by half waves and have no
+        ``complete``; `steady_shapes` can prove a list at one speed. With ``hanging_only=False`` the branches of the system's
+        own posture come first, then those of each other posture. `Branch.system` is the `Rig` with the links of the posture
+        inverted, and ``mode`` counts its modes.
 
     Raises
     ------
     ValueError
-        If not exactly one of `max_angular_speed` and `min_conical_height` is given, or a number is out of its range; if
-        a link of a rig has no effective tension at one of the speeds; if a `Held` system is under a tension or has no
-        gravity; if a rig has springs at pins, a dashpot at its support, linear drag or a free trolley; with
-        ``hanging_only=False`` for a cord, a held system, or more than 10 links; with `stability` for a cord, or where
-        `SteadyShape.stability` raises one.
+        If not exactly one of `max_angular_speed` and `min_conical_height` is given, or a number is out of its range; if a
+        link of a rig has no effective tension at one of the speeds; if a `Held` system is under a tension or has no gravity;
+        if a rig has springs at pins, a dashpot at its support, linear drag or a free trolley; with ``hanging_only=False``
+        for a cord, a held system, or more than 10 links; with `stability` for a cord.
     TypeError
-        If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`, or `hanging_only` or `stability` is not a bool.
+        If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
 
     Notes
     -----
     A listed shape that matches no branch lies on an isolated branch, which is then followed from that shape to its end.
-    ``consistent`` is true if the shapes of each list match the branches one to one, and no branch stops early, as at a slack
-    link (`loose` is no early end). Each list must be proved to have all shapes in a plane with the axis. Lists of cords are
-    scanned, not proved, and made only where no theorem counts the shapes.
 
     An isolated branch that is a closed loop can begin and end between two of the 16 speeds, so that no list contains it.
-    Interval arithmetic therefore splits the plane of conical height and tangent of the lowest link until each part has
-    no fold, or has all its shapes on one curve through a known branch. Loops found in this way are followed.
-    ``complete`` is true if this succeeds for every part; it is false if links could hang at several inclinations. The
-    proof relies on `branch`, whose steps are checked, not proved.
+    Interval arithmetic therefore splits the plane of conical height and tangent of the lowest link until each part has no
+    fold, or has all its shapes on one curve through a known branch. Loops found in this way are followed. ``complete`` is
+    true if this succeeds for every part. The proof relies on the checks of `branch`.
 
-    For rigs (on springs, on an arm, with flywheels, in fluids) the proof needs all links in tension at every speed up
-    to the given one. Below the first critical speed such a rig has exactly one hanging shape if its support is off the
-    axis, and only the straight one if it is on the axis. If stiffness times conical height is less than the weight that
-    moves, the centrifugal force grows faster than the pull of the spring at the support, and nothing is proved;
-    ``remark`` gives these heights.
+    For rigs (on springs, on an arm, with flywheels, in fluids) the proof needs all links in tension at every speed up to the
+    given one.
 
-    A link becomes horizontal only at infinite speed, where a flywheel takes its tension, or where the stretch of a spring
-    at the support becomes infinite. So a branch never leaves its posture. All shapes in any posture are therefore on the
-    branches of the ``2**N`` rigs in which some of the links are inverted, and with ``hanging_only=False`` each of these
-    diagrams is computed. ``consistent`` then refers to the proved lists of every posture. The heights `looked_at` are
-    those at which all postures without a proof were listed.
+    A branch keeps its posture. ``hanging_only=False`` therefore computes the branches of the ``2**N`` rigs in which some of
+    the links are inverted.
 
     Cost for equal plummets down to a conical height of 1/200 of the length: three 5 ms, five 25 ms, eight on threads of
-    length a, to 5 sqrt(g/a): 0.1 s; for twenty equal rods, 1 m in all, to 20 rad/s: 0.04 s. All postures of plummets down
-    to 1/50 of the length: three 0.02 s, four 0.07 s, six (196 branches) 0.5 s.
+    length a, to 5 sqrt(g/a): 0.1 s; for twenty equal rods, 1 m in all, to 20 rad/s: 0.04 s. All postures of plummets down to
+    1/50 of the length: three 0.02 s, four 0.07 s, six (196 branches) 0.5 s.
 
     Examples
     --------

@@ -33,9 +33,9 @@ def campbell(
 ) -> Campbell:
     """Return the frequencies of small motion about a steady shape at many speeds, and the speeds to avoid.
 
-    Seen from the system, wind, a tilted axis and any other influence that is constant in space turns once in each turn.
-    A motion whose frequency equals the speed (1n) is in resonance with it; one of twice the speed (2n) is in resonance
-    with what repeats twice in a turn.
+    Seen from the system, an influence that is constant in space, such as wind or a tilted axis, turns once in each turn. A
+    motion whose frequency equals the speed (1n) is in resonance with it; one of twice the speed (2n) is in resonance with
+    what repeats twice in a turn.
 
     Parameters
     ----------
@@ -44,10 +44,10 @@ def campbell(
     angular_speed : array_like, shape (S,)
         Speeds, rad/s, positive, ascending; at least two.
     orders : iterable of int
-        Multiples of the speed; those listed twice are taken once.
+        Multiples of the speed, positive.
     half_waves : int
-        Number of half waves of the shape. Of several shapes with this number it is the one whose free end is farthest
-        out. With the support off the axis and one half wave, that is the shape from rest, as far as its branch goes.
+        Number of half waves of the shape. Of several shapes with this number it is the one whose free end is farthest out.
+        With the support off the axis and one half wave, that is the shape from rest, as far as its branch goes.
     frame : {"free", "driven"}
         Frame, as in `SteadyShape.stability`.
     gravity : float, optional
@@ -63,19 +63,16 @@ def campbell(
     TypeError
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
     ValueError
-        If `system` is a `Cord` or a `Held`; if there are fewer than two speeds, or they are not positive, finite and
-        ascending; if `orders` is empty, or has another number than a positive whole one; if `half_waves` or `gravity` is
-        out of its range, or `frame` is another word; if `steady_shapes` or
-        `SteadyShape.stability` refuses the system; if there is no such shape at any of the speeds, or no small motion of
+        If `system` is a `Cord` or a `Held`; if a number is out of its range or the speeds do not ascend; if `steady_shapes`
+        or `SteadyShape.stability` refuses the system; if there is no such shape at any of the speeds, or no small motion of
         it is known (in a fluid that turns).
 
     Notes
     -----
     Method: `steady_shapes` and `stability` at each speed. Where a frequency less a multiple of the speed changes its sign
-    between two speeds, the zero is found by interpolation; a sign that changes in a jump is no crossing. Accuracy: that of
-    the exponents, 1e-13 of the largest; crossings 1e-12. Cost: 0.05 milliseconds for each speed with two links, 0.7
-    with twenty, and a few times as much for each crossing. Source: W. Campbell, The Protection of Steam-Turbine Disk Wheels
-    from Axial Vibration, Trans. ASME 46 (1924).
+    between two speeds, the zero is found by interpolation. Accuracy: that of the exponents, 1e-13 of the largest; crossings
+    1e-12. Cost: 0.05 milliseconds for each speed with two links, 0.7 with twenty, and a few times as much for each crossing.
+    Source: W. Campbell, The Protection of Steam-Turbine Disk Wheels from Axial Vibration, Trans. ASME 46 (1924).
 
     Examples
     --------

@@ -59,22 +59,20 @@ def drag_shape(
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`, or `drag` is not a `Drag`.
     ValueError
         If `system` is a `Cord` or a `Held`, or its support is on the axis; if a rig has springs at pins, a dashpot at its
-        support, linear drag, or a fluid that turns with it; if an array of the drag does not have one
-        number for each link; if a number is out of its range; if no shape without drag has `half_waves`.
+        support, linear drag, or a fluid that turns with it; if an array of the drag does not have one number for each link;
+        if a number is out of its range; if no shape without drag has `half_waves`.
 
     Notes
     -----
     Method: continuation by arc length. From rest, the squared speed grows from 0, and the drag with it; with `half_waves`,
-    the drag grows from 0. Newton's method has the exact derivative, eliminated link by link, and balances the
-    forces in twice the digits.
-    Drag is integrated along each link by Gauss's rule. A way that turns back (a fold) is followed round; if it does not
+    the drag grows from 0. Drag is integrated along each link by Gauss's rule. If the way turns back at a fold and does not
     lead to the full speed or drag, `DragShape.status` is ``fold`` and the shape is that at the first fold. Then try the
     other way: ``half_waves=1``, or none. A support on a spring yields alike in all horizontal directions.
 
-    Accuracy (measured, not proved): one link within 2e-15 rad of 40 digits; of 10,000 random chains 99 % within
-    1e-14 rad, all within 3e-13 rad. Cost: O(N) a step; for rods with a ball as below 0.3 ms for one, 8 ms for a hundred; with `half_waves` also that of
-    `steady_shapes`. Source: drag of an inclined cylinder by the cross-flow principle, Hoerner, Fluid-Dynamic Drag (1965),
-    chapter 3; the whirling machine is Greenhill (1908), section 1 (8).
+    Accuracy (measured, not proved): one link within 2e-15 rad of 40 digits; of 10,000 random chains 99 % within 1e-14 rad,
+    all within 3e-13 rad. Cost: O(N) a step; for rods with a ball as below 0.3 ms for one, 8 ms for a hundred; with
+    `half_waves` also that of `steady_shapes`. Source: drag of an inclined cylinder by the cross-flow principle, Hoerner,
+    Fluid-Dynamic Drag (1965), chapter 3; the whirling machine is Greenhill (1908), section 1 (8).
 
     Examples
     --------

@@ -39,21 +39,21 @@ def explain(
     Returns
     -------
     Explanation
-        Each method with the bound of its relative error and its time, or the reason why it does not apply. Predicted
-        times were mostly within a factor of 3 of measured times. No mode of a chain is computed.
+        Each method with the bound of its relative error and its time, or the reason why it does not apply. Predicted times
+        were mostly within a factor of 3 of measured times.
 
     Raises
     ------
-    TypeError, ValueError
-        If `modes` would raise one for these arguments. For a rig it is not checked that mode `first` exists, or that the
-        rig is not too long for `modes`.
+    TypeError
+        If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
+    ValueError
+        If a number is out of its range, or a held system has no modes.
 
     Notes
     -----
     The choice depends on the size and kind of the chain and on the modes and the tolerance, not on the numbers of each link.
-    If the chosen method cannot prove its bound, as happens for links that differ by large factors, `modes` takes the
-    next one, usually bisection. ``Modes.method`` names the method that was used. Cost: 20 microseconds. For a
-    cord one mode is computed.
+    If the chosen method cannot prove its bound, as happens for links that differ by large factors, `modes` takes the next
+    one. ``Modes.method`` names the method that was used. Cost: 20 microseconds. For a cord one mode is computed.
 
     Examples
     --------

@@ -55,14 +55,13 @@ def fit(
         Measured speed of each mode by its number, from 1 for the slowest; for a rig with flywheels -1 is the slowest
         backward mode. A speed is a number in rad/s, or text such as ``"0.5 Hz"``, ``"30 rpm"`` or a period ``"10.9 s"``. A
         pair is a speed and its standard uncertainty, in the same unit or relative such as ``"1 %"``, also as one text
-        ``"10.9 s +- 0.1 s"``:
-        ``{1: ("10.9 s", "0.1 s"), 2: (3.8, 0.05)}``. Give uncertainties for all speeds or for none. Without them all speeds
-        have equal relative weight, and their uncertainty is estimated from the residuals. Residuals are those of what
-        was measured: where a period is given, of the period.
+        ``"10.9 s +- 0.1 s"``: ``{1: ("10.9 s", "0.1 s"), 2: (3.8, 0.05)}``. Give uncertainties for all speeds or for none.
+        Without them all speeds have equal relative weight, and their uncertainty is estimated from the residuals. Where a
+        period is given, the residual is that of the period.
     vary : str, list of str or dict
-        Paths of the data that may change, as in `tune`, such as ``"links[load].mass"``; ``"gravity"`` is one of them. A
-        dictionary also gives a start value, which is needed if the present value is infinite or at its lower limit, as the
-        stiffness of a firm support or a mass of 0: ``{"support.stiffness": 2000.0}``.
+        Paths of the data that may change, as in `tune`, such as ``"links[load].mass"`` or ``"gravity"``. A dictionary also
+        gives a start value, which is needed if the present value is infinite or at its lower limit, as the stiffness of a
+        firm support or a mass of 0: ``{"support.stiffness": 2000.0}``.
     gravity : float, optional
         Acceleration of gravity, m/s^2; standard gravity if left out. The start value if it varies.
 
@@ -70,16 +69,16 @@ def fit(
     -------
     Fitted
         The new system; the values with standard uncertainties, covariance and correlation; residuals and chi-square; which
-        measurement disagrees with the others; the data that the measurements do not determine. Cost: 5 ms
-        for a small chain, 5 to 20 times that of `Modes.sensitivity` for a long one; 30 to 60 times that of the modes for
-        cords and held systems.
+        measurement disagrees with the others; the data that the measurements do not determine. Cost: 5 ms for a small chain,
+        5 to 20 times that of `Modes.sensitivity` for a long one; 30 to 60 times that of the modes for cords and held
+        systems.
 
     Raises
     ------
     ValueError
         If there are more data than speeds, an unknown path, two paths to the same number, a mode that does not exist, a
-        speed or uncertainty that is not positive, uncertainties of some speeds alone, or a datum without a start value;
-        if the system is held at a span, or its tension does not exceed its weight.
+        number out of its range, uncertainties of some speeds alone, or a datum without a start value; if the system is held
+        at a span, or its tension does not exceed its weight.
     TypeError
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
     ImportError
@@ -87,21 +86,14 @@ def fit(
 
     Notes
     -----
-    Method: trust-region least squares (`scipy.optimize.least_squares`) in the logarithms of the data, counted from
-    their lower limits, or in fractions of a typical size for momenta, spins and centroids, which may have either sign.
-    Derivatives are those of `Modes.sensitivity`; for cords, held systems, rigs with springs at pins, dashpots or linear
-    drag, and for data without a derivative there they are differences of fourth order. The values are within a
-    millionth of their standard uncertainties of a local minimum of the sum of squares. It is not proved that there is
-    no lower minimum far from the start. Uncertainties are to first order: they assume that speeds are linear in the
-    data.
+    Method: trust-region least squares (`scipy.optimize.least_squares`). Derivatives are those of `Modes.sensitivity`, or
+    differences of fourth order. The values are within a millionth of their standard uncertainties of a local minimum of the
+    sum of squares. It is not proved that there is no lower minimum far from the start. Uncertainties are to first order:
+    they assume that speeds are linear in the data.
 
-    Which measurement disagrees: the leverage of a measurement is its element h on the diagonal of the hat matrix, the part
-    of a change of the measured value by which the computed one follows. Its residual has the standard deviation
-    ``u * sqrt(1 - h)``; the residual divided by it is `Fitted.standardized_residual`. Without given uncertainties the
-    scatter of the other measurements takes the place of u (externally studentized residual), which needs two degrees of
-    freedom. The table says that the measurement with the largest one disagrees if it exceeds `Fitted.disagreement_limit`.
-    If the model is correct, at most one fit in a hundred does so by chance (Bonferroni's inequality, for all measurements
-    together). To first order; Cook and Weisberg, *Residuals and Influence in Regression* (1982), chapter 2.
+    The measurement with the largest `Fitted.standardized_residual` disagrees with the others if that exceeds
+    `Fitted.disagreement_limit`. If the model is correct, at most one fit in a hundred does so by chance (Bonferroni's
+    inequality). To first order; Cook and Weisberg, *Residuals and Influence in Regression* (1982), chapter 2.
 
     The speeds of a chain without springs and wheels depend on ratios of its masses: they cannot determine all. Such
     combinations have singular values of the derivatives below 1e-8 of the largest; the result names them.

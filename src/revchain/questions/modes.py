@@ -41,8 +41,8 @@ def modes(
 ) -> Modes:
     """Return the modes of a system: whirl speeds (critical speeds), with shapes, nodes and error bounds.
 
-    For a chain hung from a fixed point, the small-amplitude whirl speed equals the natural angular frequency of its
-    swing in a plane.
+    For a chain hung from a fixed point, the small-amplitude whirl speed equals the natural angular frequency of its swing in
+    a plane.
 
     Parameters
     ----------
@@ -50,72 +50,68 @@ def modes(
         The system: a chain of N links, a rig, a cord, or a chain or cord held straight by a tension, with or without
         gravity.
     count : int or "all", optional
-        Number of modes, slowest first; 10 if left out, or all if there are fewer. A cord has infinitely many. For a rig
-        with flywheels `count`, `first` and the windows (of absolute speeds) apply to each direction of rotation; with
-        dashpots or linear drag `count` and `first` apply to both together, by the size of the exponents.
+        Number of modes, slowest first; 10 if left out, or all if there are fewer. A cord has infinitely many. For a rig with
+        flywheels `count`, `first` and the windows (of absolute speeds) apply to each direction of rotation; with dashpots or
+        linear drag `count` and `first` apply to both together, by the size of the exponents.
     first : int, optional
-        Number of the first mode; the slowest mode is 1. Slower modes are not returned.
+        Number of the first mode; the slowest mode is 1.
     conical_height : (low, high), optional
         Window of conical heights, m: all modes with ``low < conical height <= high``. `low` may be 0 except for a cord,
         `high` infinite.
     angular_speed : (low, high), optional
-        Window of speeds, rad/s: all modes with ``low <= whirl speed < high``. `low` may be 0, `high` infinite except
-        for a cord.
+        Window of speeds, rad/s: all modes with ``low <= whirl speed < high``. `low` may be 0, `high` infinite except for a
+        cord.
     rtol : float, optional
-        Relative tolerance of the conical heights. The cheapest method whose bound is within it is used: closed form,
-        Bessel zero, coarser chain, ... (`explain` lists them). Below 2 ulp, but above 0, modes asked for by number are
-        found by double-double, with heights ``conical_height + conical_height_low``; not with `method` or `certify`. If left
-        out: full accuracy in double, 2 ulp. Rigs, cords and held systems are always solved to full accuracy.
+        Relative tolerance of the conical heights of a chain. The cheapest method whose bound is within it is used: closed
+        form, Bessel zero, coarser chain, ... (`explain` lists them). If left out: full accuracy in double, 2 ulp. Other
+        systems are solved to full accuracy. For errors below 2 ulp use ``precision="double-double"``.
     gravity : float, optional
         Acceleration of gravity, m/s^2; standard gravity if left out.
     method : str, optional
-        Method for a chain; the cheapest if left out. ``"bisection"`` counts the modes above a height and halves
-        intervals: any modes of any chain, to 2 ulp. ``"condensed"`` condenses a long chain first: some of its slowest
-        modes, to 2 ulp. ``"aberth"`` finds all modes of a small chain at once. ``"interpolated"`` interpolates the
-        characteristic polynomial: many modes. If one of these three does not apply, bisection is used, and ``method`` of
-        the result says so. ``"dense"`` solves the assembled pencil, ``"recurrence"`` relation (21) as printed: both are
-        references for small chains. Any other name that `explain` lists selects that method at any cost.
+        Method for a chain; the cheapest if left out. ``"bisection"`` counts the modes above a height and halves intervals:
+        any modes of any chain, to 2 ulp. ``"condensed"`` condenses a long chain first: some of its slowest modes, to 2 ulp.
+        ``"aberth"`` finds all modes of a small chain at once. ``"interpolated"`` interpolates the characteristic polynomial:
+        many modes. If one of these three does not apply, bisection is used, and ``method`` of the result says so.
+        ``"dense"`` solves the assembled pencil, ``"recurrence"`` relation (21) as printed: both are references for small
+        chains. Any other name that `explain` lists selects that method.
     precision : {"double", "extended", "double-double"}
         Arithmetic of the result. ``"extended"``: the results are numpy's longdouble, with a significand of 64 bits on
-        x86-64; on some platforms it equals double. ``"double-double"``: twice the digits of double; the height is the
-        sum of two float64 arrays, ``conical_height + conical_height_low``, `error_bound` bounds the error of that sum
-        (3e-29 for one link, 1e-24 for 2000), and shapes are float64.
+        x86-64; on some platforms it equals double. ``"double-double"``: twice the digits of double; the height is the sum of
+        two float64 arrays, ``conical_height + conical_height_low``, `error_bound` bounds the error of that sum (3e-29 for
+        one link, 1e-24 for 2000), and shapes are float64.
     certify : bool
-        Whether to return, for each height of a chain (also of a held one) or a rig, the interval that contains it and
-        the counts that prove it.
+        Whether to return, for each height of a chain (also of a held one) or a rig, the interval that contains it and the
+        counts that prove it.
     threads : int, optional
-        Number of threads for the heights and shapes of chains and rigs; 0 for all processors. Results are bitwise equal
-        for any number.
+        Number of threads for the heights and shapes of chains and rigs; 0 for all processors. Results are bitwise equal for
+        any number.
 
     Returns
     -------
     Modes
         The modes. ``status`` is ``"tolerance_not_met"`` if `rtol` was not reached; ``error_bound`` is the bound reached.
-        An empty window gives no modes.
 
     Raises
     ------
     ValueError
-        If the requested modes do not exist (of a rig: the first) or are specified in two ways, a window is not a pair (low,
-        high) with low below high, `rtol` is NaN or negative, `threads` is negative, `method` or `precision` is unknown, or
-        the method does not apply to the chain; if a method or another precision than double is asked of a system other than
-        a chain, or `certify` of a cord; if a rig with dashpots or linear drag comes with a window or `certify`, or has more
-        than 1000 links; if a rig has more than 20,000 links, or springs at pins, and its speeds may be complex (inverted or
-        floating links or driven wheels together with momentum, floats in rotating fluid); if a held system is not under a
-        tension that exceeds its weight.
+        If the requested modes do not exist (of a rig: the first) or are specified in two ways, a number is out of its range,
+        `method` or `precision` is unknown, or the method does not apply to the chain; if a method or another precision than
+        double is asked of a system other than a chain, or `certify` of a cord; if a rig with dashpots or linear drag comes
+        with a window or `certify`, or has more than 1000 links; if a rig has more than 20,000 links, or springs at pins, and
+        its speeds may be complex (inverted or floating links or driven wheels together with momentum, floats in rotating
+        fluid); if a held system is held at a span, or its tension does not exceed its weight.
     TypeError
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
 
     Notes
     -----
-    For chains, held chains and rigs whose speeds cannot be complex, proved counts of the exact heights decide which
-    modes lie in a window: adjacent windows share no mode and miss none. A height just above `low` may be rounded to it.
+    For chains, held chains and rigs whose speeds cannot be complex, proved counts of the exact heights decide which modes
+    lie in a window: adjacent windows share no mode and miss none.
 
-    Accuracy: ``error_bound`` is the relative error bound (by default at most 2 ulp for a chain and 1 ulp for a held
-    chain, proved by counts). Cost: O(N) for each mode; bisection halves intervals about 50 times, with up to 20,000 links
-    only until each holds one mode. Shapes take O(N) time and memory for each mode, when they are read. Other Python
-    threads can run meanwhile. For a rig whose speeds may be complex all speeds are found, in about 1 microsecond times
-    the square of the number of links.
+    Accuracy: ``error_bound`` is the relative error bound (by default at most 2 ulp for a chain and 1 ulp for a held chain,
+    proved by counts). Cost: O(N) for each mode; shapes, when they are read, take O(N) time and memory for each mode, too.
+    For a rig whose speeds may be complex all speeds are found, in about 1 microsecond times the square of the number of
+    links.
 
     References
     ----------
@@ -418,8 +414,8 @@ def count_modes(
     conical_height : array_like, optional
         Conical heights, m, positive, any shape.
     angular_speed : array_like, optional
-        Speeds in rad/s, positive, any shape. Give either this or `conical_height`. For a rig with flywheels a negative
-        speed counts the backward modes between 0 and that speed.
+        Speeds in rad/s, positive, any shape. Give either this or `conical_height`. For a rig with flywheels a negative speed
+        counts the backward modes between 0 and that speed.
     gravity : array_like, optional
         Acceleration of gravity, m/s^2, broadcast against `angular_speed` for a chain; standard gravity if left out. For
         other systems it must be a single number.
@@ -427,22 +423,22 @@ def count_modes(
     Returns
     -------
     numpy.int64 or ndarray of int64
-        Number of modes slower than each speed; shape of the argument, broadcast against `gravity`. For a rig with
-        flywheels a speed counts the modes in its own direction, and a height those of both directions.
+        Number of modes slower than each speed. For a rig with flywheels a speed counts the modes in its own direction, and a
+        height those of both directions.
 
     Raises
     ------
     ValueError
-        If both or neither of height and speed are given, or a number is out of its range; if `modes` refuses the system;
-        if a rig has dashpots or linear drag; if, for a rig, rounding leaves the count uncertain.
+        If both or neither of height and speed are given, or a number is out of its range; if `modes` refuses the system; if
+        a rig has dashpots or linear drag; if, for a rig, rounding leaves the count uncertain.
 
     Notes
     -----
     For chains and rigs the count is exact for the stored data. Method: Sylvester's law of inertia, in rounded arithmetic
     with a proof, and with twice the digits if the proof fails. Cost: O(N) for each number. If the speeds of a rig may be
     complex, all are found once, as by `modes`, and the real ones are counted. For a cord, a mode whose height differs from
-    the given one by less than the error bound of `modes` may be counted on either side. Source: Greenhill (1908),
-    section 8 (21).
+    the given one by less than the error bound of `modes` may be counted on either side. Source: Greenhill (1908), section 8
+    (21).
 
     Examples
     --------
@@ -499,13 +495,13 @@ def recurrence_matrices(chain: Chain) -> tuple[Floats, Floats]:
     Returns
     -------
     A, B : ndarray, shape (N, N)
-        Dense matrices with ``A @ y = conical_height * B @ y``, where `y` are the offsets of the pins from the
-        free end up, without the support.
+        Dense matrices with ``A @ y = conical_height * B @ y``, where `y` are the offsets of the pins from the free end up,
+        without the support.
 
     Notes
     -----
-    The relation is for small amplitude and is corrected: ``h_{m-2} / a_{m-2}`` in its third bracket, and the lowest pin
-    as an unknown. Time and memory: O(N**2).
+    The relation is for small amplitude and is corrected: ``h_{m-2} / a_{m-2}`` in its third bracket, and the lowest pin as
+    an unknown. Time and memory: O(N**2).
 
     References
     ----------

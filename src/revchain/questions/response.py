@@ -53,10 +53,10 @@ def response(
     angular_speed : array_like, optional
         Speeds in rad/s, positive; for a rig with flywheels also negative (backward).
     gravity : float, optional
-        Acceleration of gravity, m/s^2, for `angular_speed` and for flywheels; standard gravity if left out.
+        Acceleration of gravity, m/s^2; standard gravity if left out.
     support_radius : float, optional
-        Radius of the circle, or amplitude to and fro, m, positive. If left out, the radius of the rig, or 1 if it has
-        none: offsets are then relative to that of the support. Give at most one of this and the next two.
+        Radius of the circle, or amplitude to and fro, m, positive. If left out, the radius of the rig, or 1 if it has none.
+        Give at most one of this and the next two.
     acceleration : float, optional
         Amplitude of the acceleration of the support, m/s^2, instead of a radius; positive.
     force : float, optional
@@ -64,17 +64,16 @@ def response(
         positive. With momentum of flywheels the force turns with the speed, as a radius and an acceleration do; to and fro
         is then the mean of the responses at both signs of the speed.
     pins : int or array_like of int, optional
-        Pins to return, from 0 (free end) to N or -1 (support); all N + 1 if left out. Fewer pins save memory in long
-        sweeps.
+        Pins to return, from 0 (free end) to N or -1 (support); all N + 1 if left out.
     threads : int, optional
         Number of threads; 0 for all processors. Results are bitwise equal for any number.
 
     Returns
     -------
     Response
-        The offsets and counts of modes. At a resonance without damping, as far as double-double can tell,
-        offsets (but for one that is given) are NaN and `resonant` is true. The `error_bound` is proved. With springs
-        at pins, dashpots, linear drag, a trolley, an acceleration or a force there is an `error_estimate` instead.
+        The offsets and counts of modes. At a resonance without damping, as far as double-double can tell, `resonant` is true
+        and the offsets below the support are NaN. The `error_bound` is proved. With springs at pins, dashpots, linear drag,
+        a trolley, an acceleration or a force there is an `error_estimate` instead.
 
     Raises
     ------
@@ -82,25 +81,22 @@ def response(
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
     ValueError
         If `system` is a `Cord` or a `Held`; if not exactly one of `conical_height` and `angular_speed` is given; if more
-        than one of `support_radius`, `acceleration` and `force` is given, or a force on a firm support; if a number is not
-        positive and finite; if a height differs from the chain's length by a factor of 1e76 (not where errors are
-        estimated); if there is no such pin; if `threads` is negative.
+        than one of `support_radius`, `acceleration` and `force` is given, or a force on a firm support; if a number is out
+        of its range; if there is no such pin.
 
     Notes
     -----
-    The offsets solve ``K y = M y / conical_height`` for the given offset of the support. The theory is linear: offsets
-    must be small compared with the links; scale them with the radius. Below the first whirl speed a chain moves in
-    phase with its support. Without damping the offsets grow without limit towards a whirl speed (of a trolley that is
-    moved, not pushed: of the chain under a fixed support) and change sign there. Lowest links without net weight in a
-    fluid that turns with them hang straight down.
+    The offsets solve ``K y = M y / conical_height`` for the given offset of the support. The theory is linear: offsets must
+    be small compared with the links; scale them with the radius. Lowest links without net weight in a fluid that turns with
+    them hang straight down.
 
     Dashpots at pins act on rates of angles between links that do not turn about their own axes, as in motion to and fro;
     that of the support on its velocity over the ground.
 
-    Method: upward sweep of the dynamic stiffness in double-double, several speeds at a time, with a running error bound.
-    Accuracy: half an ulp of each offset, unless the speed is within about 1e-12 of a resonance (1000 links: 1e-11).
-    The proved bound is wider: within 1e-13 of a resonance for one link, 3e-7 for 1000. Cost: about 0.012 microseconds for
-    each link and speed, 2.5 with springs or dashpots at pins. Other Python threads can run meanwhile.
+    Method: upward sweep of the dynamic stiffness in double-double with a running error bound. Accuracy: half an ulp of each
+    offset, unless the speed is within about 1e-12 of a resonance (1000 links: 1e-11). The proved bound is wider: within
+    1e-13 of a resonance for one link, 3e-7 for 1000. Cost: about 0.012 microseconds for each link and speed, 2.5 with
+    springs or dashpots at pins.
 
     References
     ----------

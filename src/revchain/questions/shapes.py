@@ -55,16 +55,15 @@ def steady_shapes(
     conical_height : float
         Conical height of the speed, m, positive, instead of `angular_speed`. It does not exist without gravity.
     gravity : float, optional
-        Acceleration of gravity, m/s^2; standard gravity if left out. Not used for a weightless held system.
+        Acceleration of gravity, m/s^2; standard gravity if left out.
     budget : int, optional
         Largest number of links to visit while the range of inclinations of the lowest link is split. Chains and rigs:
-        3,000,000 if left out, at 0.1 to 1 microsecond each besides the refinement of shapes; with 0 the list is empty
-        and not complete. Held chains: 300,000 if left out, at about a microsecond each; with 0 completeness is not
-        proved. Cords for which no theorem counts the shapes: number of offsets of the free end to examine, 200 if left
-        out.
+        3,000,000 if left out, at 0.1 to 1 microsecond each besides the refinement of shapes. Held chains: 300,000 if left
+        out, at about a microsecond each; with 0 completeness is not proved. Cords for which no theorem counts the shapes:
+        number of offsets of the free end to examine, 200 if left out.
     hanging_only : bool, optional
-        Chains and rigs: whether to leave out shapes in which a link is inverted, that is, at more than a right angle to
-        the downward vertical. For a rig: whether to leave out shapes with other links inverted than those of the rig.
+        Chains and rigs: whether to leave out shapes in which a link is inverted, that is, at more than a right angle to the
+        downward vertical. For a rig: whether to leave out shapes with other links inverted than those of the rig.
     direction : {1, -1}, optional
         Direction of rotation; only a rig with flywheels depends on it.
     max_half_waves : int, optional
@@ -72,77 +71,58 @@ def steady_shapes(
     prove : bool, optional
         Held chains: whether to prove error bounds and completeness; else the bounds are estimates.
     threads : int, optional
-        Number of threads for chains and rigs; 0 for all processors. Results are bitwise equal for any number. Threads
-        share the refinement of the shapes, not the search, which is about half of the work. They share nothing if
-        `hanging_only` is False or a link has several inclinations under its load.
+        Number of threads for chains and rigs, which share the refinement of the shapes; 0 for all processors. Results are
+        bitwise equal for any number.
     mode : int, optional
-        Chains, rigs and cords: search only the branch of this mode, see `steady_shape`. Then a property may be given
-        instead of the speed, and the shapes have different speeds.
+        Chains, rigs and cords: search only the branch of this mode, see `steady_shape`. Then a property may be given instead
+        of the speed, and the shapes have different speeds.
     lowest_inclination, tip_radius, top_tension, min_conical_height : float, optional
-        With `mode`, as in `steady_shape`. If a speed is given, `min_conical_height` is half its height if left out.
+        With `mode`, as in `steady_shape`.
 
     Returns
     -------
     SteadyShapes
-        A sequence of shapes.
+        A sequence of shapes. Straight shapes are left out. ``complete`` tells whether it is proved that no shape is missing,
+        see `SteadyShapes`.
 
-        Chains and rigs: every hanging shape (all links within a right angle of the downward vertical, but for those that a
-        rig has inverted) or, if `hanging_only` is false, every shape. Straight shapes are left out. Of two mirror images
-        the one with the free end at a positive offset is given (if that is 0, the one with a positive inclination of the
-        lowest inclined link). If the support is carried round there are no mirror images; outwards is positive. The order
-        is by half waves, then by inclination of the lowest link. ``complete`` is true if it is proved that none is missing
-        among those asked for. It is false, with nothing in ``undecided``, if a link between the lowest and the topmost
-        could lean to any side under no load (with the support off the axis or on a spring: the topmost, too), that is, if
-        the conical height is at most ``W h (l - a) / (W h + a S)`` (``a - l`` if it may stand; S is the weight hung below):
-        shapes may then leave the plane with the axis, and such shapes are not searched for. Inclinations are within the
-        proved ``error_bound``, usually 2.2e-16. A chain has no shapes in any posture if the height exceeds that of its
-        first mode.
+        Chains and rigs: the hanging shapes (all links within a right angle of the downward vertical, but for those that a
+        rig has inverted) or, if `hanging_only` is false, the shapes of all postures. Of two mirror images the one with the
+        free end at a positive offset is given; if the support is carried round there are none, and outwards is positive.
+        Inclinations are within the proved ``error_bound``, usually 2.2e-16.
 
-        Cords: ordered by half waves. ``complete`` is true if a theorem counts the shapes, one for each critical height
-        above the given one, and none is within 7e-15 of it. This holds for a uniform cord with or without a tip, and for a density
-        ``s**p`` without a tip, or with a tip if p is below 0. It also holds if at most one critical height lies above
-        the given one. Otherwise a shape that exists only between two scanned offsets is missed.
+        Cords: ``complete`` is true if a theorem counts the shapes, one for each critical height above the given one, and
+        none is within 7e-15 of it. There is one for uniform cords with or without a tip. Without a theorem a shape may be
+        missed.
 
-        Held systems: shapes of 1 to `max_half_waves` half waves, ordered by half waves. Among shapes with equally many,
-        the one that is reached from the nearly straight chain without gravity, as the ends approach and gravity then
-        grows, if any, comes first. Each link points to where the load on it turns it back. Of two mirror images the one
-        whose lowest link leads outwards is given; ends off the axis have no mirror images. Half waves are counted about
-        the line between the ends (with springs: between their rest positions). ``missing`` lists the half waves with
-        which none was found. Held chains: ``complete`` is true if it is proved that there are no other shapes with
-        these numbers of half waves in the plane of the axis and the ends; else ``undecided`` gives the inclinations of
-        the lowest link at which others in that plane may start (none if `prove` is false). The proof usually succeeds
-        for one half wave of up to 9 links with ``l <= a`` and mass at every pin; with more links or half waves it often
-        leaves a part undecided. Only shapes in that plane are searched for. If both ends are off the axis, others are
-        common, and ``complete`` is false. Otherwise a shape out of the plane has a link that could lean to any side
-        under no load. Held cords: ``complete`` is true for a span without gravity, which has one shape for each number
-        of half waves.
+        Held systems: shapes of 1 to `max_half_waves` half waves about the line between the ends. Among shapes with equally
+        many, the one that is reached from the nearly straight chain comes first. Of two mirror images the one whose lowest
+        link leads outwards is given. For held chains the proof of ``complete`` usually succeeds for one half wave of up to 9
+        links with ``l <= a`` and mass at every pin; with more links or half waves it often leaves a part undecided. Held
+        cords: ``complete`` is true for a span without gravity.
 
     Raises
     ------
     ValueError
-        If not exactly one of `angular_speed` and `conical_height` is given, a number is out of its range,
-        `direction` is neither 1 nor -1, or a link of a rig has no effective tension (tension plus speed times momentum
-        divided by length) at the speed; if a rig has springs at pins, a dashpot at its support, linear drag or, with
+        If not exactly one of `angular_speed` and `conical_height` is given, a number is out of its range, or a link of a rig
+        has no effective tension at the speed; if a rig has springs at pins, a dashpot at its support, linear drag or, with
         `mode`, a free trolley; if a property is given without `mode`, or `mode` for a held system.
     TypeError
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`, or `hanging_only` or `prove` is not a bool.
 
     Notes
     -----
-    Chains and rigs. Method: interval arithmetic with first and second derivatives of the upward sweep, Greenhill
-    (1908), section 8 (4), (12), then Newton's method on all pins in double-double. A link that is inverted, or whose
-    ``pendulum_length > length``, can have three inclinations under one load; all are followed. The list is not
-    complete exactly at a critical speed or where two shapes start, or if the budget ends. For heights below about
-    2e-15 of the longest link it is empty and not complete: double-double cannot represent the offsets from which the
-    tensions follow. Cost: 12 milliseconds for 84 hanging shapes of eight plummets, or for all 64 shapes of four plummets.
-    One link more multiplies the number of shapes and the time by 1.5 to 2; if links may be inverted, by about 4.
+    Chains and rigs. Method: interval arithmetic with first and second derivatives of the upward sweep, Greenhill (1908),
+    section 8 (4), (12), then Newton's method on all pins in double-double. ``complete`` is false if the budget ends, and may
+    be false at a critical speed or at a fold. For heights below about 2e-15 of the longest link the list is empty and not
+    complete. Cost: 12 milliseconds for 84 hanging shapes of eight plummets, or for all 64 shapes of four plummets. One link
+    more multiplies the number of shapes and the time by 1.5 to 2; if links may be inverted, by about 4.
 
-    Cords. Method: power series along the cord, Newton's method on the point where it crosses the axis. Inclinations,
-    and offsets divided by the length, are within ``error_bound``, which is an estimate.
+    Cords. Method: power series along the cord, Newton's method on the point where it crosses the axis. Inclinations, and
+    offsets divided by the length, are within ``error_bound``, which is an estimate.
 
     Held systems. Accuracy: inclinations of chains are correctly rounded to within 1e-20, with a bound that is usually
-    proved; positions on cords are within 1e-13 of the length. Completeness: Krawczyk's test on the pull along the
-    lowest link and its inclination, at most about 0.2 s for one half wave.
+    proved; positions on cords are within 1e-13 of the length. Completeness: Krawczyk's test on the pull along the lowest
+    link and its inclination, at most about 0.2 s for one half wave.
 
     Examples
     --------
@@ -284,56 +264,53 @@ def steady_shape(
     Parameters
     ----------
     system : Chain, Rig, Cord or Held
-        The system: a chain of N links (100,000 and more are possible), a rig, a cord, or a chain or cord held at a
-        span.
+        The system: a chain of N links (100,000 and more are possible), a rig, a cord, or a chain or cord held at a span.
     mode : int, optional
-        Number of the mode at which the branch leaves the vertical, from 1 for the slowest. With the support off the
-        axis it must be 1, the branch from rest; for shapes of other branches use `branches` and `Branch.at`. For a
-        held system it is the number of half waves of the branch at high speed.
+        Number of the mode at which the branch leaves the vertical, from 1 for the slowest. With the support off the axis it
+        must be 1, the branch from rest; for shapes of other branches use `branches` and `Branch.at`. For a held system it is
+        the number of half waves of the branch at high speed.
     conical_height : float
         Conical height of the speed, m, less than that of the mode. Give exactly one of this and the next four.
     angular_speed : float
         Speed, rad/s.
     lowest_inclination : float
         Magnitude of the inclination of the lowest link (of a cord: of its free end), rad: between 0 and pi/2, for an
-        inverted link between pi/2 and pi. The link may lean either way; with the support off the axis it leans
-        outwards.
+        inverted link between pi/2 and pi. The link may lean either way; with the support off the axis it leans outwards.
     tip_radius : float
         Distance of the free end from the axis, m, on either side.
     top_tension : float
-        Tension at the topmost pin (of a hanging system greater than its weight), or at the upper end of a held system; in
-        N, or in the unit of the weights.
+        Tension at the topmost pin (of a hanging system greater than its weight), or at the upper end of a held system; in N,
+        or in the unit of the weights.
     gravity : float, optional
         Acceleration of gravity, m/s^2; standard gravity if left out.
     direction : {1, -1}, optional
         Direction of rotation; only a rig with flywheels depends on it.
     min_conical_height : float, optional
-        Conical height at which the search ends, m, less than that of the mode; if left out, half of a given height (or
-        that of a given speed), else 1e-6 of that of the mode. Not used for a held system.
+        Conical height at which the search ends, m, less than that of the mode; if left out, half of a given height (or that
+        of a given speed), else 1e-6 of that of the mode. Not used for a held system.
 
     Returns
     -------
     SteadyShape
         The shape, the first on the branch that has the property (`steady_shapes` with `mode` returns the others, too).
-        Inclinations are within ``error_bound``, for chains proved except at a fold (measured: 2.3e-16), for cords
-        estimated. Each step checks that the shape is on this branch, see `branch`. For a held system and a speed it is
-        the shape reached from the nearly straight chain; for a held system and a top tension it is the fastest shape
-        of the branch with that tension.
+        Inclinations are within ``error_bound``, for chains proved except at a fold (measured: 2.3e-16), for cords estimated.
+        For a held system and a speed it is the shape reached from the nearly straight chain; for a held system and a top
+        tension it is the fastest shape of the branch with that tension.
 
     Raises
     ------
     ValueError
-        If there is no such mode, if not exactly one number is given or it is out of its range, if `direction` is
-        neither 1 nor -1, if `min_conical_height` is not below the height of the mode, if the branch does not exist yet
-        at that speed, or if no shape of the branch has the property; if a `Held` system is under a tension or has no
-        gravity, comes with `lowest_inclination` or `tip_radius`, or has springs and comes with `top_tension`; if a rig
-        has springs at pins, a dashpot at its support, linear drag or a free trolley.
+        If there is no such mode, if not exactly one number is given or it is out of its range, if the branch does not exist
+        yet at that speed, or if no shape of the branch has the property; if a `Held` system is under a tension or has no
+        gravity, comes with `lowest_inclination` or `tip_radius`, or has springs and comes with `top_tension`; if a rig has
+        springs at pins, a dashpot at its support, linear drag or a free trolley.
     TypeError
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
 
     Notes
     -----
-    Cost: O(N); 0.7 s for 100,000 rods at twice the first critical speed. Source: Greenhill (1908), section 8 (4), (12).
+    Each step along the branch is checked, see `branch`. Cost: O(N); 0.7 s for 100,000 rods at twice the first critical
+    speed. Source: Greenhill (1908), section 8 (4), (12).
 
     Examples
     --------

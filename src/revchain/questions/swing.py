@@ -51,32 +51,29 @@ def swing(
     The support may be moved: a crane that brakes, a ship that rolls. Dashpots and linear drag damp the motion.
 
     The motion is in one plane; without damping its natural angular frequencies are the whirl speeds of `modes`, of links
-    that do not turn about their own axes. Motions in the two horizontal directions are independent: call the function
-    for each. Flywheels with momentum turn the plane of the swing; offsets and velocities of such a `Rig` are complex,
-    x + i y.
+    that do not turn about their own axes. Motions in the two horizontal directions are independent: call the function for
+    each. Flywheels with momentum turn the plane of the swing; offsets and velocities of such a `Rig` are complex, x + i y.
 
     Parameters
     ----------
     system : Chain, Rig or Cord
         A chain of N links, a rig, or a cord.
     time : array_like
-        Times in s; a number or an array with one axis. Negative ones only without damping, springs at pins, trolleys and a
-        moving support.
+        Times in s. Negative ones only without damping, springs at pins, trolleys and a moving support.
     offset : array_like, shape (N + 1,) or (N,), optional
-        Offsets of the pins at time 0, m, free end first; on the axis if left out. The last one, of the support, may be
-        left out. It must be 0, or that of `support`, unless a `Rig` has a support that yields. A trolley of prescribed
-        motion does not yield. For a cord: a continuous function of the distance from the free end, or numbers at
-        `arc_length` with straight lines between them.
+        Offsets of the pins at time 0, m, free end first; on the axis if left out. The last one, of the support, may be left
+        out; that of a firm support must be 0, or that of `support`. For a cord: a continuous function of the distance from
+        the free end, or numbers at `arc_length` with straight lines between them.
     velocity : array_like, shape (N + 1,) or (N,), optional
         Velocities of the pins at time 0, m/s, in the same form; at rest if left out.
     support : SupportMotion, optional
-        How the support of a chain or rig is moved or pushed. Offsets and velocities that are left out are then those of
-        the support: the system hangs straight down and moves along.
+        How the support of a chain or rig is moved or pushed. Offsets and velocities that are left out are then those of the
+        support: the system hangs straight down and moves along.
     count : int, optional
         Number of modes, slowest first; if left out, all, or 40 for a cord. With momentum, modes of both directions count.
     arc_length : array_like, optional
-        For a cord: distances from the free end of the points to return, m, ascending. They must go from 0 to the length
-        if `offset` or `velocity` are numbers. If left out, the points are evenly spaced: one for each number, or 101.
+        For a cord: distances from the free end of the points to return, m, ascending. They must go from 0 to the length if
+        `offset` or `velocity` are numbers. If left out, the points are evenly spaced: one for each number, or 101.
     gravity : float, optional
         Acceleration of gravity, m/s^2; standard gravity if left out.
 
@@ -92,35 +89,29 @@ def swing(
     TypeError
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`, or `support` is not a `SupportMotion`.
     ValueError
-        If `system` is a `Held`, or a `Cord` with a bob or whose support is moved; if a number is not finite, a start
-        has another length, moves a firm support or is complex without momentum, `count` is below 0 (for a cord 1) or
-        above the number of modes (for a cord 1e4), or weights differ by a factor of 2e123 or more; if a function jumps,
-        or `arc_length` comes with a chain or a rig. For a rig: if its support is carried round (use `response`), or if
-        the fluid turns. For a rig without damping, springs at pins, a trolley and a moving support: if its straight
-        position is unstable (the message gives the growth rate) or neutral, or if it has momentum and pins without
-        inertia. With damping, springs at pins, a trolley or a moving support: if a time is negative, `count` is given,
-        a force acts on a firm support, the motion exceeds the largest double, or there are more than 1000 links.
+        If `system` is a `Held`, or a `Cord` with a bob or whose support is moved; if a number is out of its range, a start
+        has another length, moves a firm support or is complex without momentum; if a function jumps, or `arc_length` comes
+        with a chain or a rig. For a rig: if its support is carried round (use `response`), or if the fluid turns. For a rig
+        without damping, springs at pins, a trolley and a moving support: if its straight position is unstable or neutral, or
+        if it has momentum and pins without inertia. With damping, springs at pins, a trolley or a moving support: if `count`
+        is given, a force acts on a firm support, or there are more than 1000 links.
 
     Notes
     -----
-    Pins without inertia (between massless threads) have no free offset. Offsets and velocities given for them are
-    replaced by those to which their neighbours pull them, as a light thread snaps straight; `Swing.projected` is then
-    true.
+    Pins without inertia (between massless threads) have no free offset. Offsets and velocities given for them are replaced
+    by those to which their neighbours pull them; `Swing.projected` is then true.
 
     Links of a `Rig` do not turn about their own axes: a wheel acts only by its momentum (a driven wheel by that of its
-    spin). Still fluid acts by its buoyancy and its added mass.
+    spin).
 
-    Method: heights, shapes and angles in double-double, so that beats of many years keep their phase; for a cord, angles
-    in double, wrong by 1e-15 times the number of swings, which ``truncation_error`` does not include. Accuracy
-    otherwise: 1e-15 of the amplitudes. Cost: 0.6 microseconds for each link and mode, and 3 ns for each
-    link, mode and time.
+    Method: heights, shapes and angles in double-double, so that beats of many years keep their phase; for a cord, angles in
+    double, wrong by 1e-15 times the number of swings, which ``truncation_error`` does not include. Accuracy otherwise: 1e-15
+    of the amplitudes. Cost: 0.6 microseconds for each link and mode, and 3 ns for each link, mode and time.
 
-    With damping, springs at pins, a trolley or a moving support: each motion of `modes` is driven by its part of the
-    load, exactly where that is a polynomial of time. If damping is critical, matrix exponentials go from time to time.
-    The dashpot of the support acts on its absolute velocity, also where the far end of its spring
-    moves. The straight system may then be unstable: it falls.
-    Accuracy: 1e-14 of the sum of amplitudes. Cost: 1 to 3 times that of `modes` of a damped rig with as many
-    links, and 20 ns for each link, mode and time; more if damping is critical.
+    With damping, springs at pins, a trolley or a moving support: each motion of `modes` is driven by its part of the load.
+    The dashpot of the support acts on its absolute velocity. The straight system may then be unstable. Accuracy: 1e-14 of
+    the sum of amplitudes. Cost: 1 to 3 times that of `modes` of a damped rig with as many links, and 20 ns for each link,
+    mode and time; more if damping is critical.
 
     References
     ----------

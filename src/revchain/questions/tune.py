@@ -55,10 +55,9 @@ def tune(
           point masses.
         - ``"links[k].NAME"``: datum of a link of a chain (also in a rig or a held system); k is the name of the link
           (``"links[hook block].length"``) or its index, from 0 for the first one listed (see `Chain.order`). NAME is
-          ``mass`` (``weight``), ``length`` (of a point mass at its lower pin and of a uniform rod
-          with centre of gravity and radius of gyration in proportion, as in a scene; of another body these are constant),
-          ``length_in_proportion`` (they grow with it, as for a point mass on a thread), ``centroid`` or
-          ``radius_of_gyration``.
+          ``mass`` (``weight``), ``length`` (of a point mass at its lower pin and of a uniform rod with centre of gravity and
+          radius of gyration in proportion, as in a scene; of another body these are constant), ``length_in_proportion``
+          (they grow with it, as for a point mass on a thread), ``centroid`` or ``radius_of_gyration``.
         - for a rig also ``"support.stiffness"``, ``"support.mass"``, ``"flywheels[k].momentum"``, and the data given for
           flywheels and displaced fluid: ``"flywheels[k].spin"``, ``.mass``, ``.radius_of_gyration``, ``.axial_moment``,
           ``"displaced[k].mass"``, ``.added_mass``, ``.centroid``, ``.radius_of_gyration``. If the rig has such parts, also
@@ -78,51 +77,40 @@ def tune(
     gravity : float, optional
         Acceleration of gravity, m/s^2; standard gravity if left out.
     between : (low, high), optional
-        Range of the search, if one is needed. If left out: from a thousandth to a thousand times the present value (that of
-        the whole chain for a massless link); for a centroid or a radius of gyration from 0 to the length of the link or
-        the present value. If another datum is 0, a value of ordinary size takes its place. For a tension this is said of
-        its excess over the weight, for the length at a span of its excess over the span; a span is searched from 0 to
-        the length.
+        Range of the search, if one is needed. If left out, a wide range about the present value, see `Tuned.between`.
 
     Returns
     -------
     Tuned
-        The value with its error bound, and the new system. Cost: for a link, 10 to 60 counts of O(N) each; for a mass the
-        time of 10 to 25 modes for each link; for other searches that of some hundred modes.
+        The value and the new system. Cost: for a link, 10 to 60 counts of O(N) each; for a mass the time of 10 to 25 modes
+        for each link; for other searches that of some hundred modes.
 
     Raises
     ------
     ValueError
-        If not exactly one of speed and height is given; if a number is out of its range, the path is unknown, a link
-        would be inverted everywhere in the range, or there is no such mode; if a system held at a span comes without
-        `top_tension`, or another system with it; if `between` is given for a length or gravity that has one value (see
-        Notes), or for the support's stiffness, a momentum or a spin of a rig; if gravity is varied for a height or at a
-        span.
+        If not exactly one of speed and height is given; if a number is out of its range, the path is unknown, a link would
+        be inverted everywhere in the range, or there is no such mode; if a system held at a span comes without
+        `top_tension`, or another system with it; if `between` is given for a datum that is not searched for (see Notes); if
+        gravity is varied for a height or at a span.
     TypeError
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
 
     Notes
     -----
-    A link of a chain: at a given height, the rest of the chain acts as a spring at each pin of the link. The values of a
-    centroid or a length are then roots of a quadratic, those of a radius of gyration or a length in proportion the root of
-    a linear equation. Proved counts select the values of this mode and bound their errors. The height rises with a length
-    in proportion and with a radius of gyration; with other data it may have extrema. A mass loads every link above; the
-    search then takes steps that cannot miss a value, because the relative change of a height has a bound (that of the
-    mass, if no centre of gravity is above its pin). The range leaves out masses with which a link would be inverted.
+    A link of a chain: proved counts select the values of this mode and bound their errors. The search for a mass takes steps
+    that cannot miss a value. Its range leaves out masses with which a link would be inverted.
 
-    The speeds of a chain, a cord and a held system given by weight rise with the root of gravity, which gives one value.
-    The heights of a chain, a cord and a held system with firm ends under a tension are proportional to the length, which
-    has one value, too.
+    Gravity has one value for a chain, a cord and a held system given by weight: speeds rise with its root. The length has
+    one value for a chain, a cord and, under a tension, a held system with firm ends: heights are proportional to it.
 
-    A rig without springs at pins and damping has at most one stiffness of its support, one momentum and one spin of a
-    link for each speed, computed in double-double to 1e-15; the modes of the new rig give the number of the mode.
+    A rig without springs at pins and damping has at most one stiffness of its support, one momentum and one spin of a link
+    for each speed, computed in double-double to 1e-15; the modes of the new rig give the number of the mode.
 
-    All other data of rigs, cords and held systems are searched: the speed is computed at 65 values and at extrema
-    between them, and each pair of neighbours that encloses the wanted speed is bisected. The error bound is that of two
-    values whose speeds, with their own bounds, enclose the wanted one. The search may miss values, so `complete` is
-    False. Under a tension a held system has at most one tension or mass for each speed; `complete` is then True if it
-    is found. At a span with `top_tension` the speed is that of `steady_shape`, the fastest on the branch, and its error
-    is an estimate.
+    Other data of rigs, cords and held systems are searched: the speed is computed at 65 values and at extrema between them,
+    and each pair of neighbours that encloses the wanted speed is bisected. The error bound is that of two values whose
+    speeds, with their own bounds, enclose the wanted one. The search may miss values, so `complete` is False. Under a
+    tension a held system has at most one tension or mass for each speed; `complete` is then True if it is found. At a span
+    with `top_tension` the speed is that of `steady_shape`, the fastest on the branch; its error is an estimate.
 
     Examples
     --------
