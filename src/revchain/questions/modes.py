@@ -328,7 +328,7 @@ _FIND: dict[str, Callable[[Any, _Asked], Modes]] = {
 def _of_infinitely_many(asked: _Asked) -> int | None:
     if asked.many == "all":
         raise ValueError(f"{_CALLER}: a cord has infinitely many modes; give count, or a window that ends")
-    return None if asked.heights or asked.speeds else count_of(_CALLER, asked.many, 10, each=24)
+    return None if asked.heights or asked.speeds else count_of(_CALLER, asked.many, 10, each=32)
 
 
 def _refuse_two_choices(height: Any, speed: Any, count: Any, first: int) -> None:

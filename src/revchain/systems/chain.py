@@ -267,7 +267,7 @@ class Chain(System):
         """
         caller = "revchain.Chain.tapered"
         by_mass, whole = _whole(caller, mass, weight)
-        number, long = checked_count(caller, "count", count, each=8), real(caller, "length", length)
+        number, long = checked_count(caller, "count", count, each=32), real(caller, "length", length)
         power = real(caller, "exponent", exponent)
         return cls._wrap(checked(caller, by_mass, _core.Chain.tapered, number, long, power, whole), by_mass)
 
