@@ -59,8 +59,10 @@ template <class T>
 [[noreturn, gnu::cold, gnu::noinline]] void throw_invalid(std::string_view function,
                                                           std::string_view sentence,
                                                           const T& value) {
+    const bool named = sentence.ends_with(" is") || sentence.ends_with(" has") ||
+                       sentence.ends_with(" are") || sentence.ends_with(" at");
     throw InvalidArgument("revchain::" + std::string(function) + ": " + std::string(sentence) +
-                          ", got " + in_digits(value));
+                          (named ? " " : ", got ") + in_digits(value));
 }
 
 [[noreturn, gnu::cold, gnu::noinline]] inline void throw_invalid(std::string_view function,

@@ -497,7 +497,6 @@ def in_file(sentence: str, links: Links) -> str:
 def problem_of(error: ValueError, key: str, links: Sequence[tuple[int, Link]] = ()) -> Problem:
     """An error of the core as a problem of the file, with the key of the link that it names, or else with `key`."""
     sentence = in_file(without_function(error), list(links))
-    sentence = re.sub(r"(; (?:its radius is|it has)), got", r"\1", sentence)
     if links and (said := re.match(r"(links\[\d+\](?: \(\".*?\"\))?): ", sentence)):
         key, sentence = said[1], sentence[said.end() :]
     return Problem(0, 0, key, sentence)
