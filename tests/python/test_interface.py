@@ -428,6 +428,9 @@ def test_classes_of_results_can_be_imported(repository):
         (lambda: rc.explain(POINTS, 3), "there are 2 modes, got first = 1 and count = 3"),
         (lambda: rc.explain(rc.Held(CORD, tension=9.0)), "must exceed the weight 29.42"),
         (lambda: rc.modes(rc.Held(CORD, tension=90.0), "all"), "a cord has infinitely many modes"),
+        (lambda: rc.modes(CORD, angular_speed=(0, np.inf)), "at a height above 0, or at a finite speed; its lowest height is 0$"),
+        (lambda: rc.modes(rc.Rig(rc.Chain.uniform_rods(1001), pins=rc.Pin(damping=1.0))), "^revchain.modes: .* 1000 links, got 1001$"),
+        (lambda: rc.modes(CORD, 10**12), r"^revchain.modes: count is too large, got 1000000000000: it would take .* GiB"),
         (lambda: rc.modes(POINTS).uncertainty(mass="abc %"), r'mass must be a number, or a part of it such as "5 %"'),
     ],
 )

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
 from ..results.base import Field, Result
-from ..systems.chain import Chain, compiled
+from ..systems.chain import Chain, checked, compiled
 from ..systems.numbers import STANDARD_GRAVITY, Floats, Whole, one_positive, read_only, real, shown
 from ..systems.rig import _flags
 from .table import described
@@ -127,10 +127,9 @@ class BellAndClapper(
         >>> round(rc.bell_and_clapper(chain).with_ratio(1.5)["joint"], 4)
         0.1928
         """
-        wanted = real("revchain.BellAndClapper.with_ratio", "ratio", ratio)
-        values = _core.bell_and_clapper_with_ratio(
-            self.system._compiled, wanted, self.present["joint"], self.inverted.tolist()
-        )
+        caller = "revchain.BellAndClapper.with_ratio"
+        given = real(caller, "ratio", ratio), self.present["joint"], self.inverted.tolist()
+        values = checked(caller, False, _core.bell_and_clapper_with_ratio, self.system._compiled, *given)
         return dict(zip(_core.BELL_DATA, values, strict=True))
 
     @described()

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 from .. import _core
 from ..results.base import Field, Result
 from ..results.sheet import Column, Sheet
+from ..systems.chain import checked
 from ..systems.drawing import Plot
 from ..systems.numbers import (
     STANDARD_GRAVITY, Floats, Whole, floats, numbers, one_positive, positive, real, reals, refuse_where,
@@ -246,9 +247,9 @@ class GyrostaticString:
 
     def __post_init__(self) -> None:
         for name, value in asdict(self).items():
-            checked = one_positive if name in ("weight", "length", "tension", "gravity") else real
+            read = one_positive if name in ("weight", "length", "tension", "gravity") else real
             given = self.length / 2 if name == "centroid" and value is None else value
-            object.__setattr__(self, name, checked("revchain.GyrostaticString", name, given))
+            object.__setattr__(self, name, read("revchain.GyrostaticString", name, given))
         self.phase(0.0)  # the compiled function checks the rest
 
     @described()
@@ -309,4 +310,5 @@ class GyrostaticString:
         return self._at("plane_rotation", "angular_speed", speed, _core.gyrostatic_string_rotation)[0]
 
     def _at(self, method: str, name: str, value: ArrayLike, function: Any) -> tuple[FloatOrArray, ...]:
-        return tuple(numbers(function(floats(f"revchain.GyrostaticString.{method}", name, value), **asdict(self))))
+        caller = f"revchain.GyrostaticString.{method}"
+        return tuple(numbers(checked(caller, False, function, floats(caller, name, value), **asdict(self))))

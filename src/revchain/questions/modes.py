@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from .. import _core
 from ..results.base import asked_in
 from ..results.modes import Modes, speed_bound_of_exponents
-from ..systems.chain import Chain, compiled
+from ..systems.chain import Chain, checked, compiled
 from ..systems.cord import Cord
 from ..systems.held import Held
 from ..systems.numbers import STANDARD_GRAVITY, Floats, Whole, boolean, floats, integer, one_positive, positive, real, shown, together
@@ -266,8 +266,8 @@ def _of_damped_rig(rig: Rig, asked: _Asked, many: int | None) -> Modes:
     if asked.heights or asked.speeds:
         raise ValueError(f"{_CALLER}: a window is for a system without dashpots; give count and first")
     g = asked.gravity
-    exponent, bound, estimate, shape, available, rigid, complete, status = _core.damped_modes(
-        rig._under(g), asked.first, many, g, asked.progress
+    exponent, bound, estimate, shape, available, rigid, complete, status = checked(
+        _CALLER, False, _core.damped_modes, rig._under(g), asked.first, many, g, asked.progress
     )
     if asked.first > max(1, available):
         raise ValueError(f"{_CALLER}: first must be from 1 to {available}, the number of modes, got {asked.first}")
