@@ -137,6 +137,14 @@ TEST_CASE("cord: a density with a tip weight, against 22 digits") {
     for (Index k = 0; k < 3; ++k) CHECK(std::abs(found[k] / other[static_cast<std::size_t>(k)] - 1) < 9e-16);
 }
 
+TEST_CASE("cord branches: a shape that no branch can be followed from leaves the diagram inconsistent") {
+    const Cord cord(1.0, {.weight = 0.3, .tip_weight = 0.7, .weights = {{0.144, 5.3}, {0.1465, 4.1}, {0.232, 5.1}}});
+    const auto diagram = revchain::branches(cord, {.min_conical_height = 8e-4});
+    CHECK_FALSE(diagram.consistent);
+    CHECK_FALSE(diagram.complete);
+    for (const CordBranch& branch : diagram.branches) CHECK(branch.size() > (branch.mode > 0 ? 0 : 1));
+}
+
 TEST_CASE("cord branches: an isolated branch is found, and its fold") {
     const auto diagram = revchain::branches(beads(), {.min_conical_height = 0.06, .lists = 2});
     REQUIRE(diagram.branches.size() == 4);

@@ -61,11 +61,11 @@ class CordDiagram {
         for (const CordBranch& branch : result_.branches) count_met(list, branch, height, met);
         for (std::size_t i = 0; i < met.size(); ++i) {
             if (met[i] == 0) {
-                result_.branches.push_back(through(list.shapes[i]));
-                const BranchEnd end = result_.branches.back().end;
-                if (end != BranchEnd::height && end != BranchEnd::closed)
+                CordBranch loop = through(list.shapes[i]);
+                if (loop.end != BranchEnd::height && loop.end != BranchEnd::closed)
                     result_.consistent = false;
-                count_met(list, result_.branches.back(), height, met);
+                count_met(list, loop, height, met);
+                if (loop.size() > 1) result_.branches.push_back(std::move(loop));
             }
             if (met[i] != 1) result_.consistent = false;
         }
