@@ -243,7 +243,7 @@ struct RigOnBranchOptions {
     std::optional<double> min_conical_height{};
 };
 
-/// As a number of shapes it means all.
+/// The default of `max_shapes`: no limit.
 inline constexpr std::size_t all_shapes = std::numeric_limits<std::size_t>::max();
 
 /// Shapes of one branch, in the order of its arc.
