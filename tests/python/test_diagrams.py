@@ -58,6 +58,13 @@ def test_what_the_diagram_says(kind, share):
             assert diagram.crossing[0] - diagram.pin[0, 1] == pytest.approx(height, rel=1e-12)
 
 
+def test_transfer_of_inverted_links_is_refused():
+    shape = rc.steady_shapes(rc.Chain.uniform_plummets(2, length=2.0), conical_height=0.05, hanging_only=False)[0]
+    assert max(abs(shape.inclination)) > np.pi / 2
+    with pytest.raises(ValueError, match="between -pi/2 and pi/2, got -2.03"):
+        shape.transferred_to_axis()
+
+
 def test_funicular_polygon_and_its_oscillation_against_a_dense_solver():
     scipy_linalg = pytest.importorskip("scipy.linalg")
     rng = np.random.default_rng(3)

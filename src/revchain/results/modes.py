@@ -311,8 +311,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         lambda m: np.linspace(0.0, m._require_cord("arc_length").length, 201),
     )
     shape: Field[Numbers] = Field(
-        "Offsets of the pins, shape (k, N + 1), free end first, support last. The largest magnitude of each mode is 1, and "
-        "the free end (of a held chain the lowest pin that can move) is positive. With dashpots they are complex, and the "
+        "Offsets of the pins, shape (k, N + 1), free or lower end first. The largest magnitude of each mode is 1, and the "
+        "free end (of a held chain the lowest pin that can move) is positive. With dashpots they are complex, and the "
         "largest is 1. For a cord: offsets of the places `arc_length`, shape (k, 201), 1 at the free end; of a cord held at "
         "both ends, 1 at the lowest vertical point.",
         otherwise=lambda m: m.along(m.arc_length),
@@ -526,7 +526,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         >>> worst.lowest_angular_speed.round(4), worst.highest_angular_speed.round(4)
         (array([2.6821]), array([2.7496]))
 
-        By the paths of the data:
+        Deviations given by path:
 
         >>> crane = rc.Chain(mass=[2500, 400], length=[6, 24], names=["load", "hook block"])
         >>> rc.modes(crane).uncertainty({"links[load].mass": "5 %", "links[hook block].length": "0.5 m"}).largest
@@ -549,7 +549,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         Parameters
         ----------
         arc_length : array_like
-            Distances from the free end, m, 0 to the length, one number or one axis.
+            Distances from the free or lower end, m, 0 to the length, one number or one axis.
 
         Returns
         -------
@@ -580,7 +580,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         Parameters
         ----------
         arc_length : array_like
-            Distances from the free end, as in `along`.
+            Distances from the free or lower end, as in `along`.
 
         Returns
         -------

@@ -68,7 +68,8 @@ class Response(Result, Moving):
         lambda r: np.angle(r.offset),
     )
     amplification: Field[Numbers | None] = Field(
-        "Offsets divided by the amplitude of the support, shape (..., P); None for a force.", lambda r: r._amplification()
+        "Offsets divided by the amplitude of the support (of the far end of its spring), shape (..., P); None for a force.",
+        lambda r: r._amplification(),
     )
     error_bound: Field[Floats | None] = Field(
         "Proved bound of the error of each offset of the chain, divided by the largest offset, shape (...). None if there "

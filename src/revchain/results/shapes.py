@@ -112,7 +112,7 @@ class Stability(
         "else NaN.",
         fact=True,
     )
-    margin: Field[float] = Field("Growth rate up to which the errors leave the verdict open.", fact=True)
+    margin: Field[float] = Field("Largest `exponent_error`; of a cord, the error estimate of `growth_rate`.", fact=True)
     negative_directions: Field[int] = Field(
         "Number of negative directions of the energy in the turning frame, at constant angular momentum in the free "
         "frame.",
@@ -385,8 +385,8 @@ class SteadyShape(
         Notes
         -----
         Links have no inertia about their own axes, apart from wheels; in the free frame a link keeps the angular momentum of
-        its wheel. Still fluid acts by its added mass. In a turning fluid there are no exponents: a shape of least energy at
-        constant speed is a minimum, any other undecided.
+        its wheel. Still fluid acts by its buoyancy and its added mass. In a turning fluid there are no exponents: a shape of
+        least energy at constant speed is a minimum, any other undecided.
 
         Method for cords: Galerkin's, with polynomials on panels. The exponents of ``cord.chain(N)`` approach these as
         ``1/N**2``.
@@ -482,7 +482,11 @@ class SteadyShape(
         >>> rc.modes(shape.transferred_to_axis()).conical_height.round(12)
         array([0.5       , 0.08366581])
         """
-        made = _core.transferred_to_axis(self._chain("transferred_to_axis"), self._found())
+        chain = self._chain("transferred_to_axis")
+        what = "is for shapes without inverted links: inclination must lie between -pi/2 and pi/2"
+        inverted = np.cos(self.inclination) <= 0
+        refuse_where(inverted, self.inclination, f"revchain.SteadyShape.transferred_to_axis: {what}")
+        made = _core.transferred_to_axis(chain, self._found())
         return Chain._wrap(made, self.system.by_mass, self.system.names, self.system.order)
 
     @property

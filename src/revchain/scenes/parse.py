@@ -232,7 +232,7 @@ def _repaired(line: str) -> tuple[str, int, str] | None:
 def convert(raw: Any, kind: type[Kind], source: str, problems: list[Problem]) -> Kind:
     """`raw` as `kind`, a msgspec Struct. Errors are noted in `problems`, and the wrong values are left out.
 
-    Text that cannot be read at all raises a SceneError.
+    Raises a SceneError if `raw` is not a table or cannot be read.
     """
     if isinstance(raw, dict) and "vary" in _known_keys(kind) and (scene := [key for key in SYSTEMS if key in raw]):
         raise SceneError(source, scene[0], f"is of a scene, not of a study: revchain run {source}")

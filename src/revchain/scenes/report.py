@@ -153,15 +153,7 @@ def shortfall(found: Any) -> str:
 
 @dataclass(frozen=True)
 class Verdict:
-    """The verdict on an answer.
-
-    Attributes
-    ----------
-    kind : str
-        ``"proved"``, ``"computed"`` (without a proof) or ``"open"`` (something may be missing).
-    sentence : str
-        The verdict in words.
-    """
+    """A sentence about an answer, and its kind: ``"proved"``, ``"computed"`` (without a proof) or ``"open"``."""
 
     kind: str
     sentence: str

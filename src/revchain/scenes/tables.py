@@ -109,8 +109,8 @@ class Support(Table, frozen=True):
 class Link(Table, frozen=True):
     """One link, or several equal ones. A link of mass 0 is a massless thread.
 
-    A link with `clamped` is part of the link above; `standing`, `flywheel`, `displaced`,
-    `pin`, `drag` and `air_drag` belong to that link.
+    A link with `clamped` is part of the link above: give `standing`, `flywheel`, `displaced`,
+    `pin`, `drag` and `air_drag` there.
     """
 
     length: Annotated[Positive, says("Distance between its pins (m).")]

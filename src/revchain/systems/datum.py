@@ -40,7 +40,7 @@ class Datum:
     floor : float or None
         Lower limit of all values; None if they may have either sign.
     ceiling : float
-        Upper end of a search with equal steps; infinite if the search is by ratio.
+        Upper end of the default range of a search; infinite if there is none.
     rate : (str, ndarray) or None
         Name of the field of the sensitivity, and a factor for each link: the derivative by this datum is the sum of field
         times factor. None if no field has it, and for a cord.

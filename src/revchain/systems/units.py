@@ -79,7 +79,7 @@ _TOLERANCE = re.compile(r"\(?\s*(.*?)\s*(?:±|\+\s*/?\s*-)\s*([^()]*?)\s*(?:\)\s
 
 
 def speed_unit(value: Any) -> str | None:
-    """The unit of `SPEED_UNITS` in which text, a pint quantity or the first of a list gives a speed, or None."""
+    """The unit of `SPEED_UNITS` of a speed in text or a pint quantity, or of the first one in a list; else None."""
     value = unpacked(value)
     if isinstance(value, dict):
         value = list(value.values())
