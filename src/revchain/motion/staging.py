@@ -83,7 +83,7 @@ class Choices:
 
 @singledispatch
 def staged(result: Any, choices: Choices) -> Film:
-    """Return the film of a result; each kind of result registers a function of its own."""
+    """Return the film of a result."""
     raise TypeError(f"{choices.caller}: a {type(result).__name__} does not move")
 
 

@@ -266,7 +266,7 @@ def plot_sleeve_governor(governor: SleeveGovernor, ax: Axes | None = None, *, sp
 
 @described(bound=True)
 def plot_governor_equilibria(found: GovernorEquilibria, ax: Axes | None = None, *, speed: str | None = None) -> Axes:
-    """Draw the curve of the governor with a dot at each equilibrium on it, hollow if it is unstable.
+    """Draw the curve of the governor and a dot at each equilibrium, hollow if it is unstable.
 
     >>> porter = rc.SleeveGovernor(ball_mass=2.3, arm=0.33, lower_arm=0.33, sleeve_mass=9.5122, gravity=9.81)
     >>> len(porter.equilibria("125 rpm").plot().lines) > len(porter.plot().lines)

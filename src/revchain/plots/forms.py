@@ -77,7 +77,7 @@ def seen_of(form: str) -> Iterator[tuple[str, str, Floats]]:
 
 
 def extent_of(form: str) -> tuple[float, float, float]:
-    """Return how far a form reaches sideways, and from where to where along its link, in its unit."""
+    """Return the half width of a form and its two ends along the link, in the unit of the form."""
     every = np.concatenate([outline for *_, outline in seen_of(form)])
     return float(np.abs(every[:, 0]).max()), float(every[:, 1].min()), float(every[:, 1].max())
 

@@ -175,7 +175,7 @@ class Straight:
             ax.plot(x, z, "o", color=colour, markersize=size, zorder=2)
 
     def at_rest(self, ax: Axes) -> None:
-        """Draw the straight system: bodies sized by weight, wheels seen edge-on, and the support."""
+        """Draw the straight system and its support."""
         if self.system._is_cord:
             density = self.base.density
             where = (self.level[0] - self.level) if not self.system._is_held else self.level

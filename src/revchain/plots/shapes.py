@@ -50,7 +50,7 @@ def plot_shapes(shapes: SteadyShapes, ax: Axes | None = None, *, speed: str | No
 
 @described(bound=True)
 def plot_drag_shape(shape: DragShape, ax: Axes | None = None, *, view: str | None = None) -> Axes:
-    """Draw the shape from the side and from above, true to scale, with an arrow in the sense of the motion.
+    """Draw the shape from the side and from above, true to scale.
 
     view: ``"side"``: seen along the motion. ``"above"``: seen from above. If left out, both, in given axes the view from
         above.

@@ -51,7 +51,6 @@ def explain(
 
     Notes
     -----
-    The choice depends on the size and kind of the chain and on the modes and the tolerance, not on the numbers of each link.
     If the chosen method cannot prove its bound, as happens for links that differ by large factors, `modes` takes the next
     one. ``Modes.method`` names the method that was used. Cost: 20 microseconds. For a cord one mode is computed.
 

@@ -86,10 +86,10 @@ def fit(
 
     Notes
     -----
-    Method: trust-region least squares (`scipy.optimize.least_squares`). Derivatives are those of `Modes.sensitivity`, or
-    differences of fourth order. The values are within a millionth of their standard uncertainties of a local minimum of the
-    sum of squares. It is not proved that there is no lower minimum far from the start. Uncertainties are to first order:
-    they assume that speeds are linear in the data.
+    Method: trust-region least squares (`scipy.optimize.least_squares`). Derivatives are analytic, or differences of fourth
+    order. The values are within a millionth of their standard uncertainties of a local minimum of the sum of squares. It is
+    not proved that there is no lower minimum far from the start. Uncertainties are to first order: they assume that speeds
+    are linear in the data.
 
     The measurement with the largest `Fitted.standardized_residual` disagrees with the others if that exceeds
     `Fitted.disagreement_limit`. If the model is correct, at most one fit in a hundred does so by chance (Bonferroni's

@@ -431,6 +431,8 @@ def count_modes(
     ValueError
         If both or neither of height and speed are given, or a number is out of its range; if `modes` refuses the system; if
         a rig has dashpots or linear drag; if, for a rig, rounding leaves the count uncertain.
+    TypeError
+        If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
 
     Notes
     -----

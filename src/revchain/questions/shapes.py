@@ -120,9 +120,9 @@ def steady_shapes(
     Cords. Method: power series along the cord, Newton's method on the point where it crosses the axis. Inclinations, and
     offsets divided by the length, are within ``error_bound``, which is an estimate.
 
-    Held systems. Accuracy: inclinations of chains are correctly rounded to within 1e-20, with a bound that is usually
-    proved; positions on cords are within 1e-13 of the length. Completeness: Krawczyk's test on the pull along the lowest
-    link and its inclination, at most about 0.2 s for one half wave.
+    Held systems. Accuracy: inclinations of chains are within half an ulp plus 1e-20, and ``error_bound`` is usually proved;
+    positions on cords are within 1e-13 of the length. Completeness: Krawczyk's test on the pull along the lowest link and
+    its inclination, at most about 0.2 s for one half wave.
 
     Examples
     --------
@@ -292,8 +292,8 @@ def steady_shape(
     Returns
     -------
     SteadyShape
-        The shape, the first on the branch that has the property (`steady_shapes` with `mode` returns the others, too).
-        Inclinations are within ``error_bound``, for chains proved except at a fold (measured: 2.3e-16), for cords estimated.
+        The shape, the first on the branch that has the property. Inclinations are within ``error_bound``, for chains proved
+        except at a fold (measured: 2.3e-16), for cords estimated.
         For a held system and a speed it is the shape reached from the nearly straight chain; for a held system and a top
         tension it is the fastest shape of the branch with that tension.
 

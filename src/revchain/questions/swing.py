@@ -68,7 +68,7 @@ def swing(
         Velocities of the pins at time 0, m/s, in the same form; at rest if left out.
     support : SupportMotion, optional
         How the support of a chain or rig is moved or pushed. Offsets and velocities that are left out are then those of the
-        support: the system hangs straight down and moves along.
+        support: the system is straight and moves along.
     count : int, optional
         Number of modes, slowest first; if left out, all, or 40 for a cord. With momentum, modes of both directions count.
     arc_length : array_like, optional

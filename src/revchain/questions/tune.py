@@ -108,9 +108,9 @@ def tune(
 
     Other data of rigs, cords and held systems are searched: the speed is computed at 65 values and at extrema between them,
     and each pair of neighbours that encloses the wanted speed is bisected. The error bound is that of two values whose
-    speeds, with their own bounds, enclose the wanted one. The search may miss values, so `complete` is False. Under a
-    tension a held system has at most one tension or mass for each speed; `complete` is then True if it is found. At a span
-    with `top_tension` the speed is that of `steady_shape`, the fastest on the branch; its error is an estimate.
+    speeds, with their own bounds, enclose the wanted one. The search may miss values: `complete` is True only if it finds
+    the tension or a mass of a held system under a tension, which has at most one value for each speed. At a span with
+    `top_tension` the speed is that of `steady_shape`, the fastest on the branch; its error is an estimate.
 
     Examples
     --------
