@@ -267,6 +267,17 @@ class Ran:
         return open, ("ran", "w")
 
 
+def test_a_field_whose_name_is_damaged_is_missed(npz):
+    rc.modes(CHAIN).save(npz)
+    arrays = dict(np.load(npz))
+    arrays["revchain"] = np.array(str(arrays["revchain"]).replace('"error_bound":', '"error_bounc":'))
+    np.savez(npz, **arrays)
+    found = rc.load(npz)
+    assert len(found.conical_height) > 0
+    with pytest.raises(ValueError, match=r"^revchain\.Modes: the file that it was loaded from lacks some of its numbers"):
+        _ = found.error_bound
+
+
 def refused(path, match):
     with pytest.raises(ValueError, match=match) as caught:
         rc.load(path)

@@ -191,8 +191,11 @@ class Result(Unchangeable):
         return core
 
     def _from_parts(self) -> Any:
-        """The compiled result, made from the parts of a loaded one."""
-        raise NotImplementedError
+        """The compiled result, made from the parts of a loaded one; a ValueError if the file lacks some of them."""
+        raise ValueError(
+            f"revchain.{type(self).__name__}: the file that it was loaded from lacks some of its numbers; compute and "
+            "save it again"
+        )
 
     def _is_good(self) -> bool:
         """Return whether everything was found and proved."""
