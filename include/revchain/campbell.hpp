@@ -50,9 +50,9 @@ struct Campbell {
 /// 1).
 ///
 /// Method: `steady_shapes` and `stability` at each speed (with `thorough` only in programs that
-/// link revchain::compiled). Where a frequency less a multiple of the speed changes sign between
-/// two speeds, its zero is found by interpolation. Two crossings of one motion between neighbouring
-/// speeds are not seen. Accuracy: that of the exponents, 1e-13 of the largest; crossings 1e-12
+/// link revchain::compiled). A crossing is found where frequency - order x speed changes sign
+/// between two speeds. Two crossings of one motion between neighbouring speeds are not seen.
+/// Accuracy: that of the exponents, 1e-13 of the largest; crossings 1e-12
 /// (tests/cpp/campbell.cpp). Cost: a list of shapes and a stability at each speed, and at several
 /// speeds for each crossing. Throws InvalidArgument unless there are two speeds or more, positive
 /// and ascending, and a shape at one of them, and as `steady_shapes` and `stability`. Source: W.

@@ -87,7 +87,7 @@ struct CordModesOptions {
 /// for a uniform cord with a tip weight, to 2 ulp. Others use power series, to 4e-15
 /// (tests/cpp/cord.cpp). `error_bound` has these figures, measured for exponents from -0.99 to 100.
 /// It is larger for a density function that jumps; with particles or a bob it is mostly below 1e-14
-/// (tests/cpp/cord_particles.cpp). Offsets and slopes are within 1e-15 times the mode number of the
+/// (tests/cpp/cord_particles.cpp). Offsets and slopes are within 2e-15 times the mode number of the
 /// largest one, with series within 1e-14 for the first 7 modes, with particles or a bob within
 /// 1e-11. Cost: closed forms take 0.04 to 8 microseconds a mode; power series mostly take
 /// 0.2 to 2 ms for each mode up to the last one requested. Throws InvalidArgument as `modes` of a
@@ -119,7 +119,7 @@ REVCHAIN_DECLARE_ANALYTIC
 /// d(conical height)/d(datum) of each mode, (k,), all else constant; dn = -n/(2 lambda) dlambda.
 struct CordSensitivity {
     Index first = 1;
-    Vector<double> length;      ///< of the whole cord; its density stretches with it
+    Vector<double> length;      ///< of the whole cord; density and particles stretch with it
     Vector<double> weight;      ///< of the cord without tip and particles; its distribution is
                                 ///< constant
     Vector<double> tip_weight;  ///< 0 for a cord held at both ends
@@ -178,8 +178,7 @@ REVCHAIN_DECLARE_ANALYTIC
 /// Accuracy: the shape is within its `error_bound`, an estimate, of the exact one at its conical
 /// height. That height is the given one, or within 1e-12 of the one at which the number is reached
 /// (tests/cpp/cord_branches.cpp), less accurate where the number hardly changes with the height.
-/// Cost: that of the branch up to there. Throws as for a chain, and
-/// for a bob.
+/// Cost: as `branch`. Throws as for a chain, and for a bob.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordShape steady_shape(const Cord& cord, const OnBranchOptions& options);
 

@@ -41,9 +41,9 @@ struct ExplainOptions {
     std::optional<double> rtol{};  ///< of the conical heights; absent: full accuracy
 };
 
-/// Returns the method that `modes` of a chain, with all of methods.hpp, tries first. No mode is
-/// computed. If that method cannot prove its bound for this chain, `modes` takes the next one;
-/// `Modes::method` names the method used. Throws as `modes`.
+/// Compares the methods for a chain. With all of methods.hpp, `modes` first tries the one chosen.
+/// If that cannot prove its bound, it takes the next one; `Modes::method` names the method used. No
+/// mode is computed. Throws as `modes`.
 REVCHAIN_DECLARE
 [[nodiscard]] Explanation explain(const Chain<double>& chain, const ExplainOptions& options = {});
 

@@ -162,9 +162,8 @@ struct HeldModesOptions {
 /// lower end. Without gravity a height is `HeldModesOptions::gravity` over the square of the speed.
 ///
 /// Method: modes are counted in double; each gets a Rayleigh quotient in double-double and two
-/// proved counts. Accuracy: `error_bound` is proved, 1 ulp; wider for a few modes of links 1e9
-/// times lighter than their neighbours (docs/accuracy.md). Cost: 0.7 microseconds a link and mode,
-/// also with shapes.
+/// proved counts. Accuracy: `error_bound` is proved, mostly 1 ulp (tests/cpp/held.cpp). Cost: 0.7
+/// microseconds a link and mode, also with shapes.
 /// Throws InvalidArgument for a span, for a tension that does not exceed the weight, as `modes` of
 /// a chain, and if rounding leaves the number of modes in a window in doubt.
 REVCHAIN_DECLARE

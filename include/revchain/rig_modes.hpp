@@ -110,9 +110,9 @@ struct RigModes {
 /// accuracy.
 ///
 /// Method without momentum: lambda K y = M y. If K > 0 or M >= 0, counts number the heights
-/// (Sylvester): positive ones as modes, negative ones in `other`. With momentum: K + n G - (n^2/g)
-/// M. If K > 0 and M >= 0, counts number the speeds. Otherwise all heights or speeds are found at
-/// once (Ehrlich, Aberth) and proved in disjoint discs.
+/// (Sylvester): positive ones as modes, negative ones in `other`. Method with momentum: (K + n G -
+/// n^2 M/g) y = 0. If K > 0 and M >= 0, counts number the speeds. Otherwise all heights or speeds
+/// are found at once (Ehrlich, Aberth) and proved in disjoint discs.
 /// Accuracy, measured (tests/cpp/rig_modes.cpp): heights without momentum, speeds with it, within
 /// 0.501 ulp of the exact ones of the stored numbers. Their bounds by counts are at most 1 ulp,
 /// wider with springs at pins of very light links; shapes are as for chains. Cost: 50 ns per link

@@ -121,7 +121,7 @@ struct TortuousPoint {
 /// Cost: 0.2 microseconds to construct, 0.3 microseconds a point.
 class TortuousRope {
    public:
-    /// Throws InvalidArgument for data outside the ranges above.
+    /// Throws InvalidArgument for numbers out of range.
     explicit TortuousRope(const TortuousGiven& given);
 
     double least_radius() const noexcept { return first_; }

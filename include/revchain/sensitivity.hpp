@@ -83,7 +83,7 @@ template <Real T>
 struct Uncertainty {
     Vector<T> conical_height;  ///< (k,) standard deviations, in the unit of the heights
     Vector<T> relative;        ///< (k,) over the heights; half as much for speeds and periods
-    std::array<Table<T>, datum_names.size()> share;  ///< (k, N) of each variance; sum 1, or 0
+    std::array<Table<T>, datum_names.size()> share;  ///< (k, N) of a mode's variance: sum 1, or 0
     std::vector<Datum> datum;                        ///< (k,) the datum that contributes most
     std::vector<Index> link;                         ///< (k,) the link of that datum, from 0
 };

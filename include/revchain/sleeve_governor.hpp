@@ -24,7 +24,7 @@ struct GovernorData {
     int balls = 2;
     double arm = 0;            ///< from the pivot to the ball
     double pivot_offset = 0;   ///< of the arms' pivots from the axis; negative if arms cross
-    double lower_arm = 0;      ///< of the links that carry the sleeve; 0 without a sleeve
+    double lower_arm = 0;      ///< of the links that carry the sleeve; 0 without them
     double joint = 0;          ///< from the pivot to the joint of the lower link; 0: at the ball
     double sleeve_offset = 0;  ///< of the lower links' pivots on the sleeve from the axis
     /// Hartnell: levers with a ball on one arm and the sleeve at the other, of this length, at
@@ -74,8 +74,8 @@ class SleeveGovernor {
     explicit SleeveGovernor(const GovernorData& data);
 
     const GovernorData& data() const noexcept { return data_; }
-    /// The point at an inclination. Throws InvalidArgument unless it is less than a right angle,
-    /// either way, and the links reach there.
+    /// The point at an inclination. Throws InvalidArgument unless |inclination| < pi/2 and the
+    /// links reach there.
     [[nodiscard]] GovernorPoint at(double inclination) const { return at(inclination, {}); }
     /// The speed of equilibrium, NaN or infinite if there is none.
     [[nodiscard]] double speed(double inclination) const { return at(inclination).speed; }

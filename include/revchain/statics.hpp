@@ -23,8 +23,7 @@ namespace revchain::inline REVCHAIN_BUILD {
 /// The vertices of the funicular polygon are the pins, its sides the links, its loads `load`. In
 /// the diagram of force the ray OQ_m from the pole O is parallel to link m, and its length is the
 /// tension along the link. The weight of a plummet is on its pin, and Q_m is also the reaction. A
-/// link of another kind divides its weight and centrifugal force between its pins by balance about
-/// them, and the reaction at a pin lies between the rays of its links.
+/// link of another kind divides its load between its pins by balance of moments.
 struct ForceDiagram {
     Table<double> pin;       ///< (N + 1, 2) vertices; the support (0, 0) last
     Table<double> load;      ///< (N, 2) on all pins but the support: centrifugal force, -weight

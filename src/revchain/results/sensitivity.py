@@ -43,7 +43,8 @@ class Sensitivity(Result):
     ==============================  =================================================================================
     ``mass``                        mass of a link; of a cord without its tip
     ``length``                      distance between the pins at constant centre of gravity and radius of gyration, so
-                                    that a point mass becomes a body; of a cord, whose density keeps its proportions
+                                    that a point mass becomes a body; of a cord, stretched with its density and
+                                    masses
     ``centroid``                    distance of the centre of gravity below the upper pin
     ``radius_of_gyration``          radius of gyration
     ``length_in_proportion``        a length with which centroid and radius of gyration grow in proportion, as for the
