@@ -38,7 +38,7 @@ struct Blow {
     double impulse;     ///< integral of the buffer's force: the momentum that the carriages lose
 };
 
-/// The motion as a function of time. Accuracy for up to 50 blows, if none only grazes
+/// The motion as a function of time. Accuracy for up to 30 blows, if none only grazes
 /// (tests/cpp/buffer.cpp): positions 1e-13 of speed x time, speeds 1e-13 of the speed and of
 /// acceleration x time, times of blows 1e-13 of the last one. Errors grow with the number of blows.
 /// Cost: 0.6 microseconds a blow, 25 ns for a state.

@@ -122,8 +122,8 @@ REVCHAIN_DECLARE
                                          const SteadyShapesOptions& options, Thorough);
 
 /// The steady shapes of a rig that whirls at a given speed, in its posture or in any posture.
-/// Accuracy and cost are those of chains (tests/cpp/finite/shapes/rigs.cpp). For a support carried
-/// round at radius b > 0 positive is outwards.
+/// Accuracy is that of chains (tests/cpp/finite/shapes/rigs.cpp). Cost: that of chains, or several
+/// times as much. For a support carried round at radius b > 0 positive is outwards.
 ///
 /// Method: that of chains. The sweep must end in y - b - (H + W y)/(lambda E) = 0: y is the offset
 /// of the topmost pin, H/lambda its sideways pull, W the carriage weight, E the spring's stiffness.

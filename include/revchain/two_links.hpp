@@ -100,8 +100,8 @@ template <Real T>
     return weight / stiffness;
 }
 
-/// Seconds a day that a clock loses because the support of its pendulum yields by `deflection` to
-/// its weight: 86400 (1 - sqrt(l / lambda)). Accuracy: 8 ulp.
+/// Seconds a day that a clock loses if its pendulum hangs on the spring of `link_on_spring`:
+/// 86400 (1 - sqrt(l / lambda[0])). Accuracy: 8 ulp.
 template <Real T>
 [[nodiscard]] T seconds_lost_per_day(const T& deflection, const CompoundLink<T>& link) {
     using std::max, std::sqrt;
@@ -167,9 +167,9 @@ struct PairShape {
 
 /// The shapes in which two plummets hang at the speed with conical height `height`, §2 (4); at most
 /// four, sorted by half waves, then by the inclination of the lower thread. None if `height` is at
-/// least the first of `two_plummets`. The proof that no other exists is in
-/// paper/two_links_shapes.hpp. Cost: 1 microsecond a shape.
-/// Accuracy: inclinations 4 ulp for the data as given, also near a fold and near the vertical.
+/// least the first of `two_plummets`. Proof that no other exists:
+/// revchain/paper/two_links_shapes.hpp. Cost: 1 microsecond a shape. Accuracy: inclinations 4 ulp
+/// for the data as given, also near a fold and near the vertical.
 template <Real T>
 [[nodiscard]] std::vector<PairShape<T>> two_plummets_shapes(const T& lower_weight,
                                                             const T& lower_thread,

@@ -49,7 +49,7 @@ COMMON: dict[str, tuple[Any, Any]] = {
         None,
     ),
     "csv": (
-        Annotated[str | None, typer.Option(metavar="FILE|-", help="All numbers but mode shapes as CSV; - is stdout.")],
+        Annotated[str | None, typer.Option(metavar="FILE|-", help="All columns but mode shapes as CSV; - is stdout.")],
         None,
     ),
     "xlsx": (Annotated[Path | None, typer.Option(metavar="FILE", help="All numbers as a workbook: .xlsx.")], None),

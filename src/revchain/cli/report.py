@@ -79,7 +79,7 @@ class Report:
                 raise OSError(error.errno, error.strerror or str(error), str(file)) from None
 
     def text(self, kind: str) -> str:
-        """The report as ``.txt``, or all numbers as ``.json`` or ``.csv``, without the shapes of modes."""
+        """The report as ``.txt``, the numbers as ``.json``, or the table as ``.csv``, without the shapes of modes."""
         if kind == ".txt":
             file = io.StringIO()
             self.print(Console(file=file, width=NARROWEST))

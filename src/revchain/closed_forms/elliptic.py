@@ -21,7 +21,7 @@ __all__ = ["Jacobi", "jacobi"]
 
 
 class Jacobi(NamedTuple):
-    """Jacobi's functions of ``u``: `amplitude` am u, `sn`, `cn`, `dn`, and `epsilon`, the integral of dn**2 to u.
+    """Jacobi's functions of ``u``: `amplitude` am u, `sn`, `cn`, `dn`, and `epsilon`, the integral of dn**2 from 0 to u.
 
     Examples
     --------
@@ -43,7 +43,7 @@ class Jacobi(NamedTuple):
     cost="0.07 microseconds for each number",
 )
 def jacobi(u: ArrayLike, *, modulus: float | None = None, complementary_modulus: float | None = None) -> Jacobi:
-    """Return Jacobi's elliptic functions for one modulus; give the modulus or its complement.
+    """Return Jacobi's elliptic functions for one modulus, or one complementary modulus.
 
     returns: Arrays with the shape of `u`.
     raises: If a number is out of its range, or both or none of the moduli are given.

@@ -50,8 +50,8 @@ class BufferImpact(Solved):
     The buffer pushes but does not pull. Units: any consistent set.
 
     speed: Speed of both carriages towards the buffer at time 0, when the front one touches it
-    raises: If a number is not positive and finite, or there are more than 100,000 blows.
-    notes: Accuracy for up to 50 blows, measured against integration, if none only grazes the buffer: positions to 1e-13
+    raises: If a number is out of its range, or there are more than 100,000 blows.
+    notes: Accuracy for up to 30 blows, measured against integration, if none only grazes the buffer: positions to 1e-13
         of speed times time, speeds to 1e-13 of the speed and of acceleration times time, times to 1e-13 of the last time.
         Errors grow with the number of blows. Cost: 10 microseconds, 1 more for each blow, and 0.05 for each state.
 

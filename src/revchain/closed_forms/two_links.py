@@ -250,8 +250,8 @@ def two_plummets_shapes(
         one with the lower plummet at a positive offset. The list is proved complete.
     raises: If a length divided by `height` exceeds 1.1e102.
     notes: Near the vertical a relative error of the data changes the tangents by up to about ``2 x / (x - height)``
-        times as much, where the shape leaves the vertical at the height `x`. Where two shapes meet, it changes them by
-        its square root.
+        times as much, where the shape leaves the vertical at the height `x`. Where two shapes meet, an error e of the data
+        changes them by about sqrt(e).
 
     >>> pair = dict(lower_weight=1, lower_thread=2, upper_weight=3, upper_thread=1)
     >>> for shape in rc.two_links.two_plummets_shapes(**pair, height=1 / 64):

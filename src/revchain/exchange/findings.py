@@ -40,11 +40,11 @@ class ModelWarning(UserWarning):
     Attributes
     ----------
     gravity : float
-        Acceleration of gravity in the model, m/s^2: the argument `gravity` of questions about the system.
+        Acceleration of gravity to give to questions about the system, m/s^2.
     left_out : tuple of str
         Sentences on what `ignore` or `links` left out.
     remarks : tuple of str
-        Sentences on what was changed or guessed or has no effect.
+        Sentences on what else was changed, guessed or not read.
 
     Examples
     --------
@@ -67,7 +67,7 @@ class ModelWarning(UserWarning):
 
 
 class Blocked(ValueError):
-    """The end of reading: the list of obstacles is in the message."""
+    """A model cannot be read; the message says why."""
 
 
 class Sentence(NamedTuple):
@@ -96,7 +96,7 @@ class Findings:
     def obstacle(self, place: tuple[str, int], what: str, instead: str, word: str = "", *, links: str = "") -> None:
         """Note what cannot be read, with what to write instead; or what is left out, if the caller ignores its word.
 
-        `links` is the argument that takes one of several chains.
+        `links`, such as ``links="a b"``, is an argument that would help.
         """
         if word in self.ignore:
             self.left_out.append(Sentence(place, what))
@@ -110,7 +110,7 @@ class Findings:
         self.left_out.append(Sentence(place, what))
 
     def remark(self, place: tuple[str, int], what: str) -> None:
-        """Note what was changed or guessed, or has no effect."""
+        """Note what was changed, guessed or not read."""
         self.remarks.append(Sentence(place, what))
 
     def stop(self) -> NoReturn:

@@ -35,7 +35,7 @@ _BENT = "only a Chain or a Rig is a serial chain of links; cut a cord into links
 
 @dataclass(frozen=True, slots=True)
 class Mechanism:
-    """Bodies, links from the free end up.
+    """A chain or rig as bodies; arrays over links begin at the free end.
 
     Attributes
     ----------
@@ -86,7 +86,7 @@ class Mechanism:
 
     @property
     def reach(self) -> float:
-        """The greatest possible distance from the axis while the support is in its resting place, in metres."""
+        """The length of the chain plus the radius of the support, in metres."""
         return float(self.length.sum()) + self.radius
 
     def part(self, k: int, what: str) -> str:

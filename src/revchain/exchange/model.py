@@ -57,7 +57,7 @@ class _Part(NamedTuple):
 
 
 class Model(Compiled):
-    """A compiled model of which a chain or rig is made. Masses, and moments along links, up to `least` count as 0."""
+    """A compiled model, read as a chain or rig. Masses, and moments along links, up to `least` count as 0."""
 
     turn: int | None = None  # the joint of the turntable
     wanted: tuple[int, ...] = ()  # the bodies that the caller names

@@ -117,7 +117,7 @@ class Text:
         return "\n".join(lines), elements
 
     def message(self, error: str, elements: list[Element], version: str) -> tuple[tuple[str, int], str]:
-        """A message of MuJoCo with the place and the names in the file."""
+        """The place of an error in the file, and MuJoCo's message about it with the names of the file."""
         place = ("", 0)
         if found := re.search(r",? line (\d+)(, column \d+)?", error):
             if 0 < int(found[1]) <= len(elements):
