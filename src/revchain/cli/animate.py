@@ -15,6 +15,7 @@ from ..motion.write import METHODS, require_for
 from ..results.files import written_aside
 from ..scenes.system import option
 from ..scenes.tables import QUESTIONS
+from ..systems.numbers import without_function
 from .ask import Gravity, Quiet, SceneFile, answer_of, read_scene
 from . import ExitCode
 from .frame import Stop, app, epilog, guarded
@@ -80,7 +81,7 @@ def animate(
         except OSError as error:  # names the file of the user, not the temporary one
             raise OSError(error.errno, error.strerror or str(error), str(out)) from None
         except ValueError as error:
-            words = str(error).partition(": ")[2]
+            words = without_function(error)
             for name in numbers:
                 words = re.sub(rf"\b{name}\b", option(name), words)
             about = "" if "--" in words else "--figures: " if which else f"{shown}: "

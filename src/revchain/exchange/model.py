@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..systems.chain import Chain
-from ..systems.numbers import Floats
+from ..systems.numbers import Floats, without_function
 from ..systems.rig import Flywheel, Pin, Rig, Support
 from .compiled import Compiled
 from .mechanism import radius_of_gyration
@@ -96,7 +96,7 @@ class Model(Compiled):
         try:
             return self._system(links, given)
         except ValueError as error:
-            sentence = str(error).partition(": ")[2]
+            sentence = without_function(error)
         found = re.match(r"links\[(\d+)\](: )?", sentence)
         name = links[int(found[1])].name if found else ""
         if found:

@@ -32,7 +32,8 @@ def from_mjcf(
     source : path-like or str
         Path of the file, or its text, which begins with ``<``.
     ignore : str or tuple of str
-        What to leave out where a chain cannot have it: words of the table below, such as ``"damping range"``, or ``"all"``.
+        Parts of the model to leave out, which a chain cannot have: words of the table below, such as ``"damping range"``;
+        ``"all"`` leaves out each of these.
     links : str or tuple of str, optional
         Names of the bodies that are the links, if more than one body hangs from another.
 

@@ -12,7 +12,7 @@ from ..results.shapes import SteadyShape, SteadyShapes, shape_made, shapes_made
 from ..systems.chain import Chain, compiled
 from ..systems.cord import Cord
 from ..systems.held import Held
-from ..systems.numbers import STANDARD_GRAVITY, boolean, exactly_one, integer, limit, one_positive, shown
+from ..systems.numbers import STANDARD_GRAVITY, boolean, exactly_one, integer, limit, one_positive, shown, without_function
 from ..systems.numbers import count as counted
 from ..systems.rig import Rig
 from ..systems.system import System
@@ -387,7 +387,7 @@ def on_branch(
     try:
         return question(core, number, name, force, gravity, direction, lowest)
     except ValueError as error:
-        reason = str(error).partition(": ")[2]  # after the name of a function that this one calls
+        reason = without_function(error)
         if name == "lowest_inclination":  # which C++ calls that of the tip
             reason = reason.replace("tip inclination", name)
         if name != "top_tension" or "tension" not in reason:

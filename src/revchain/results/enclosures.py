@@ -429,7 +429,7 @@ class _Box:
         return np.stack([_middle(each) for each in (off, own, gravity)]).transpose(2, 0, 1, 3)
 
     def _slack(self, height: float) -> tuple[float, Floats]:
-        """How far M - L K, times the side, can be above 0 in the box, on the modes from this one on."""
+        """An upper bound of side * (M - L K) over the box, for this mode and those after it; the share of each datum."""
         side, gamma = self.side, self.family.gamma
         form = side * (self.inertia - height * self.pull)
         error = self.sizes[0] + height * self.sizes[1]

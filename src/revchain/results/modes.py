@@ -163,7 +163,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
 
     Shapes, nodes, residuals and sensitivities are computed when they are first read. Arrays are read-only. ``modes[0]`` is
     a row: one number or array of each field. For a system held straight at both ends, distances start at its lower end.
-    What the fields say about dashpots holds for linear drag, too.
+    Fields treat linear drag like dashpots.
 
     Notes
     -----

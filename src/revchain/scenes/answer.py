@@ -23,6 +23,7 @@ from ..questions.swing import swing
 from ..results.sheet import digits, in_unit
 from ..systems.chain import Chain
 from ..systems.held import Held
+from ..systems.numbers import without_function
 from ..systems.rig import Rig
 from ..systems.support_motion import KINDS, SupportMotion
 from ..systems.units import SI, speed_unit
@@ -201,7 +202,7 @@ def _support_motion(time: Any, moved: Given, numbers: Numbers) -> SupportMotion 
     try:
         return SupportMotion(time, **{name.removeprefix("support_"): values})
     except ValueError as error:
-        reason = str(error).partition(": ")[2].removeprefix("time ")
+        reason = without_function(error).removeprefix("time ")
         numbers.refuse("support_time", reason.replace("; time, got", ", got"))
         return None
 

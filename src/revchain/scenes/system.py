@@ -17,6 +17,7 @@ from ..systems.chain import Chain, Order
 from ..systems.cord import Cord
 from ..systems.drag import Drag
 from ..systems.held import Held
+from ..systems.numbers import without_function
 from ..systems.rig import Displaced, Flywheel, Pin, Rig, Support
 from ..systems.units import SI, si_value, speed_unit
 from . import tables
@@ -476,11 +477,6 @@ def _held(table: tables.Held, system: Chain | Cord | None, numbers: Numbers) -> 
         key = next(filter(reason.startswith, ends), "span" if table.tension is UNSET else "tension")
         numbers.refuse(key, reason.removeprefix(f"{key} "))
         return None
-
-
-def without_function(error: object) -> str:
-    """The sentence of an error without the name of a function."""
-    return re.sub(r"^revchain(::|\.)[\w:.]+?: ", "", str(error))
 
 
 def in_file(sentence: str, links: Links) -> str:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
-from .numbers import Floats, floats, integer, link_arrays, mass_or_weight, real, refuse_beyond_memory, shown, word
+from .numbers import Floats, floats, integer, link_arrays, mass_or_weight, real, refuse_beyond_memory, shown, without_function, word
 from .numbers import count as checked_count
 from .system import System
 
@@ -641,7 +641,7 @@ def checked(caller: str, by_mass: bool, make: Callable[..., Any], *given: Any, *
     try:
         return make(*given, **named)
     except ValueError as error:
-        text = str(error).partition(": ")[2]
+        text = without_function(error)
         raise ValueError(f"{caller}: {text.replace('weights', 'masses').replace('weight', 'mass') if by_mass else text}") from None
 
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 import operator
 import os
+import re
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from functools import cache
@@ -84,6 +85,11 @@ def count(caller: str, name: str, value: object, each: int = 0) -> int:
         raise ValueError(f"{caller}: {name} is too large, got {shown(number)}")
     refuse_beyond_memory(caller, name, number, each)
     return number
+
+
+def without_function(error: object) -> str:
+    """The sentence of an error without the name of a function."""
+    return re.sub(r"^revchain(::|\.)[\w:.]+?: ", "", str(error))
 
 
 def refuse_beyond_memory(caller: str, name: str, number: int, each: int) -> None:
